@@ -1,0 +1,116 @@
+"""The database: SQLite, one file, one writer, any number of readers.
+
+What the server has acknowledged survives a power cut: the writing connections run with `synchronous=FULL`, and every
+transaction that writes begins IMMEDIATE (a deferred one that starts to write later fails at once when another holds the
+lock, whatever the timeout). Readers are barred from writing.
+"""
+
+import sqlite3
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import ModuleType
+from typing import Any, TypeVar
+
+import sqlalchemy as sa
+from alembic import command
+from alembic.config import Config
+from filelock import FileLock
+from sqlalchemy import Connection, Engine, event
+from sqlalchemy.orm import Session
+
+from app.config import Settings
+from app.kit.writer import Writer
+
+if sys.platform == "linux":
+    import pysqlite3
+
+    SQLITE: ModuleType = pysqlite3
+else:
+    SQLITE = sqlite3
+
+T = TypeVar("T")
+
+SOUND_SQLITE = (3, 51, 3)
+"""Older libraries can damage a WAL file when it is reset (fixed in 3.51.3, and in 3.50.7 and 3.44.6)."""
+
+WEB_PATIENCE_MS = 5_000
+"""How long a web request waits for the write lock before it is told to come back."""
+WORKER_PATIENCE_MS = 30_000
+"""How long a background step waits: nobody is holding the line."""
+
+
+class Database:
+    """The open database of one process."""
+
+    def __init__(self, settings: Settings, *, patience_ms: int = WEB_PATIENCE_MS) -> None:
+        settings.data_dir.mkdir(parents=True, exist_ok=True)
+        self.url = settings.database_url
+        self._readers = make_engine(self.url, is_reader=True, patience_ms=patience_ms)
+        self._writers = make_engine(self.url, patience_ms=patience_ms)
+        self._writer = Writer(self._writers, queue_length=settings.write_queue_length)
+
+    @contextmanager
+    def read(self) -> Iterator[Session]:
+        """Open a session on one consistent state of the data; writing in it is an error."""
+        with Session(self._readers, expire_on_commit=False) as session:
+            yield session
+
+    def write(self, work: Callable[[Session], T]) -> T:
+        """Do `work(session)` in the writer; when this returns, what it did is on the disk.
+
+        Raises whatever the work raised (and nothing of it is stored), WriterIsBusy when too much is waiting, or
+        sqlalchemy's OperationalError when the file is locked, full or gone.
+        """
+        return self._writer.run(work)
+
+    def close(self) -> None:
+        """Finish the writes that were accepted, then close every connection."""
+        self._writer.close()
+        self._writers.dispose()
+        self._readers.dispose()
+
+
+def make_engine(url: str, *, is_reader: bool = False, patience_ms: int = WEB_PATIENCE_MS) -> Engine:
+    """Return an engine whose connections hold the promises at the head of this module."""
+    engine = sa.create_engine(url, module=SQLITE, pool_size=20, max_overflow=0, pool_timeout=10)
+
+    @event.listens_for(engine, "connect")
+    def set_up(connection: Any, _: object) -> None:  # noqa: ANN401 - the driver's own connection
+        connection.isolation_level = None  # the driver opens no transaction of its own; "begin" below does
+        for pragma in (
+            f"busy_timeout={patience_ms}",
+            "journal_mode=WAL",
+            "synchronous=FULL",
+            "foreign_keys=ON",
+            f"journal_size_limit={64 * 2**20}",
+            f"query_only={'ON' if is_reader else 'OFF'}",
+        ):
+            connection.execute(f"PRAGMA {pragma}")
+
+    @event.listens_for(engine, "begin")
+    def begin(connection: Connection) -> None:
+        connection.exec_driver_sql("BEGIN" if is_reader else "BEGIN IMMEDIATE")
+
+    return engine
+
+
+def migrate(settings: Settings) -> None:
+    """Bring the file to the newest layout: our tables by Alembic, then the job engine's own."""
+    from dbos import DBOS  # noqa: PLC0415 - half a second of import that only migrations and workers need
+
+    settings.data_dir.mkdir(parents=True, exist_ok=True)
+    with FileLock(settings.data_dir / "migration.lock"):  # two processes that start at once take turns
+        config = Config()
+        config.set_main_option("script_location", str(_migrations_dir()))
+        config.attributes["url"] = settings.database_url
+        command.upgrade(config, "head")
+        DBOS.migrate(settings.database_url)
+
+
+def _migrations_dir() -> Path:
+    """Find the migrations: inside the package in an installed wheel, beside it in a checkout."""
+    package = Path(__file__).parent
+    inside = package / "migrations"
+    return inside if inside.is_dir() else package.parent / "migrations"
