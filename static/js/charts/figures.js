@@ -1,0 +1,75 @@
+// @ts-check
+/** How numbers are written everywhere on the pages Learn and Compare: a true minus sign, one unit, no "−0.0". */
+
+const MINUS = "−";
+
+/**
+ * A number with a fixed count of decimals: `figure(-3.44)` is "−3.4".
+ * @param {number | null | undefined} value
+ * @param {number} [decimals]
+ */
+export function figure(value, decimals = 1) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+  const rounded = value.toFixed(decimals);
+  const isZero = Number(rounded) === 0;
+  return isZero ? rounded.replace("-", "") : rounded.replace("-", MINUS);
+}
+
+/**
+ * A number to two significant digits that stays readable when tiny or huge: 0.43, 0.00012, 1.3 × 10⁶.
+ * @param {number | null | undefined} value
+ */
+export function significant(value) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size >= 1e5 || size < 1e-5) return scientific(value);
+  if (size >= 10) return figure(value, 0);
+  if (size >= 1) return figure(value, 1);
+  return value.toPrecision(2).replace("-", MINUS);
+}
+
+/**
+ * "5.1 ± 0.4"; without an interval the number alone.
+ * @param {number} mean
+ * @param {number | null} standardError
+ */
+export function withError(mean, standardError) {
+  return standardError ? `${figure(mean)} ± ${figure(standardError)}` : figure(mean);
+}
+
+/** @param {number | null | undefined} share of 1 */
+export function percent(share) {
+  return share === null || share === undefined || !Number.isFinite(share) ? "–" : `${figure(100 * share, 0)} %`;
+}
+
+/**
+ * "1 success", "3 failures".
+ * @param {number} count
+ * @param {string} singular
+ * @param {string} [plural]
+ */
+export function counted(count, singular, plural = `${singular}s`) {
+  return `${count} ${count === 1 ? singular : plural}`;
+}
+
+/**
+ * "MEIRL", "MEIRL and IRLR", "MEIRL, IRLR and IRLF".
+ * @param {string[]} names
+ */
+export function listed(names) {
+  if (names.length < 2) return names.join("");
+  return `${names.slice(0, -1).join(", ")} and ${names[names.length - 1]}`;
+}
+
+/** @param {number} value */
+function scientific(value) {
+  const [mantissa = "", exponent = ""] = value.toExponential(1).split("e");
+  return `${mantissa.replace("-", MINUS)} × 10${superscript(Number(exponent))}`;
+}
+
+/** @param {number} exponent */
+function superscript(exponent) {
+  const digits = [...String(Math.abs(exponent))].map((digit) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(digit)]);
+  return (exponent < 0 ? "⁻" : "") + digits.join("");
+}

@@ -1,0 +1,283 @@
+/**
+ * `<irl-board>`: the one board of all pages. Give it a `world` and a `view` (ARCHITECTURE.md, "Browser"); whatever is
+ * assigned is painted in the next animation frame. It fills the box the page gives it, with whole device pixels a square.
+ */
+
+import { drawInk, drawSquares, lookOf } from "#js/board/render.js";
+import { DELTAS, EMPTY_VIEW, placeOf } from "#js/board/state.js";
+import { onThemeChange, theme } from "#js/board/theme.js";
+import { isTaken } from "#js/lib/keys.js";
+
+/** @typedef {import("#js/board/state.js").World} World */
+/** @typedef {import("#js/board/state.js").View} View */
+/** @typedef {import("#js/board/state.js").Agent} Agent */
+
+const SVG = "http://www.w3.org/2000/svg";
+const SMALLEST_WHOLE_CELL = 4;
+
+export class IrlBoard extends HTMLElement {
+  #life = new AbortController();
+  /** @type {World | null} */
+  #world = null;
+  /** @type {View} */
+  #view = EMPTY_VIEW;
+  /** @type {import("#js/board/render.js").Look | null} */
+  #look = null;
+  #frame = 0;
+  #squaresAreOld = true;
+  #inkIsOld = true;
+  #numbersHeld = false;
+  #cell = 0;
+  #ratio = 1;
+  #stage = make("div", "board-stage");
+  #squares = /** @type {HTMLCanvasElement} */ (make("canvas", "board-squares"));
+  #ink = /** @type {HTMLCanvasElement} */ (make("canvas", "board-ink"));
+  #agents = make("div", "board-agents");
+
+  connectedCallback() {
+    this.#life = new AbortController();
+    const { signal } = this.#life;
+    if (!this.#stage.isConnected) {
+      this.#stage.append(this.#squares, this.#ink, this.#agents);
+      this.#stage.setAttribute("aria-hidden", "true");
+      this.prepend(this.#stage);
+    }
+    if (!this.hasAttribute("role")) this.setAttribute("role", "img");
+    const resizes = new ResizeObserver(() => this.#resize());
+    resizes.observe(this);
+    signal.addEventListener("abort", () => resizes.disconnect());
+    onThemeChange(() => this.#redrawAll(), signal);
+    this.#watchZoom(signal);
+    document.addEventListener("keydown", (event) => this.#onKey(event, true), { signal });
+    document.addEventListener("keyup", (event) => this.#onKey(event, false), { signal });
+    window.addEventListener("blur", () => this.#holdNumbers(false), { signal });
+    this.#redrawAll();
+  }
+
+  disconnectedCallback() {
+    this.#life.abort();
+    cancelAnimationFrame(this.#frame);
+    this.#frame = 0;
+  }
+
+  /** @returns {World | null} */
+  get world() {
+    return this.#world;
+  }
+
+  set world(world) {
+    this.#world = world;
+    if (world) this.style.setProperty("--board-ratio", `${world.cols} / ${world.rows}`);
+    this.#resize();
+    this.#redrawAll();
+  }
+
+  /** @returns {View} */
+  get view() {
+    return this.#view;
+  }
+
+  /** @param {Partial<View>} view */
+  set view(view) {
+    const [before, after] = [this.#view, { ...EMPTY_VIEW, ...view }];
+    this.#view = after;
+    if (before.values !== after.values || before.scale !== after.scale || before.unknown !== after.unknown) this.#squaresAreOld = true;
+    if (this.#squaresAreOld || before.numbers !== after.numbers || before.arrows !== after.arrows) this.#inkIsOld = true;
+    if (before.visits !== after.visits || before.paths !== after.paths) this.#inkIsOld = true;
+    this.#schedule();
+  }
+
+  get label() {
+    return this.getAttribute("aria-label") ?? "";
+  }
+
+  set label(text) {
+    this.setAttribute("aria-label", text);
+  }
+
+  /** The square under a point of the window, or null. @param {number} clientX @param {number} clientY @returns {number | null} */
+  stateAt(clientX, clientY) {
+    if (!this.#world || !this.#cell) return null;
+    const box = this.#stage.getBoundingClientRect();
+    const col = Math.floor((clientX - box.left) / this.#cell);
+    const row = Math.floor((clientY - box.top) / this.#cell);
+    const isInside = row >= 0 && col >= 0 && row < this.#world.rows && col < this.#world.cols;
+    return isInside ? row * this.#world.cols + col : null;
+  }
+
+  /** The first agent leans against an edge or a wall and comes back. @param {number} direction 0…3 */
+  bump(direction) {
+    const token = this.#agents.firstElementChild?.firstElementChild;
+    if (!token || prefersStill()) return;
+    const [dy, dx] = DELTAS[direction] ?? [0, 0];
+    const lean = `translate(${dx * 22}%, ${dy * 22}%)`;
+    token.animate([{ transform: "none" }, { transform: lean }, { transform: "none" }], { duration: 140, easing: "ease-out" });
+  }
+
+  /** The first agent hops: quiet joy. */
+  hop() {
+    const token = this.#agents.firstElementChild?.firstElementChild;
+    if (!token || prefersStill()) return;
+    const frames = [{ transform: "none" }, { transform: "translateY(-26%) scale(1.06)" }, { transform: "none" }];
+    token.animate(frames, { duration: 200, iterations: 2, easing: "ease-out" });
+  }
+
+  /** Let a short text rise from a square and fade (a cost, a reward). @param {number} state @param {string} text @param {"gain" | "loss"} kind */
+  float(state, text, kind) {
+    if (!this.#world) return;
+    const [row, col] = placeOf(this.#world, state);
+    const note = make("span", `board-float board-float--${kind}`);
+    note.textContent = text;
+    note.style.left = `${(col + 0.5) * this.#cell}px`;
+    note.style.top = `${row * this.#cell + (row === 0 ? this.#cell * 0.3 : 0)}px`;
+    this.#stage.append(note);
+    const rise = prefersStill() ? 0 : -this.#cell * 0.35;
+    const frames = [
+      { opacity: 0, transform: "translate(-50%, -20%)" },
+      { opacity: 1, transform: `translate(-50%, calc(-50% + ${rise / 2}px))`, offset: 0.2 },
+      { opacity: 1, transform: `translate(-50%, calc(-50% + ${rise * 0.8}px))`, offset: 0.7 },
+      { opacity: 0, transform: `translate(-50%, calc(-50% + ${rise}px))` },
+    ];
+    note.animate(frames, { duration: 750, easing: "ease-out" }).finished.then(
+      () => note.remove(),
+      () => note.remove(),
+    );
+  }
+
+  #redrawAll() {
+    this.#squaresAreOld = true;
+    this.#inkIsOld = true;
+    this.#schedule();
+  }
+
+  #schedule() {
+    if (this.#frame || !this.isConnected) return;
+    this.#frame = requestAnimationFrame(() => {
+      this.#frame = 0;
+      this.#paint();
+    });
+  }
+
+  #paint() {
+    const world = this.#world;
+    if (!world || this.#cell === 0) return;
+    const palette = theme();
+    const view = { ...this.#view, numbers: this.#view.numbers || this.#numbersHeld };
+    if (this.#squaresAreOld || !this.#look) {
+      this.#look = lookOf(world, view, palette);
+      drawSquares(this.#scene(this.#squares, world, view, this.#look));
+      this.#squaresAreOld = false;
+    }
+    if (this.#inkIsOld) {
+      drawInk(this.#scene(this.#ink, world, view, this.#look));
+      this.#inkIsOld = false;
+    }
+    this.#placeAgents(world, view.agents);
+  }
+
+  /** @param {HTMLCanvasElement} canvas @param {World} world @param {View} view @param {import("#js/board/render.js").Look} look */
+  #scene(canvas, world, view, look) {
+    const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+    return { context, world, view, look, theme: theme(), geometry: { cell: this.#cell * this.#ratio, ratio: this.#ratio } };
+  }
+
+  #resize() {
+    const world = this.#world;
+    if (!world) return;
+    const [width, height, ratio] = [this.clientWidth, this.clientHeight, window.devicePixelRatio || 1];
+    const exact = Math.min((width * ratio) / world.cols, (height * ratio) / world.rows);
+    const cell = (exact >= SMALLEST_WHOLE_CELL ? Math.floor(exact) : exact) / ratio;
+    const isSame = cell === this.#cell && ratio === this.#ratio && this.#stage.dataset.size === `${world.cols}×${world.rows}`;
+    if (isSame || cell <= 0) return;
+    [this.#cell, this.#ratio] = [cell, ratio];
+    this.#stage.dataset.size = `${world.cols}×${world.rows}`;
+    this.#stage.style.width = `${cell * world.cols}px`;
+    this.#stage.style.height = `${cell * world.rows}px`;
+    this.#stage.style.setProperty("--cell", `${cell}px`);
+    for (const canvas of [this.#squares, this.#ink]) {
+      canvas.width = Math.round(cell * ratio * world.cols);
+      canvas.height = Math.round(cell * ratio * world.rows);
+    }
+    // Setting a canvas' size wipes it: paint before the browser shows the empty one.
+    this.#squaresAreOld = true;
+    this.#inkIsOld = true;
+    if (this.isConnected) this.#paint();
+  }
+
+  /** @param {World} world @param {Agent[]} agents */
+  #placeAgents(world, agents) {
+    while (this.#agents.children.length > agents.length) this.#agents.lastElementChild?.remove();
+    while (this.#agents.children.length < agents.length) this.#agents.append(makeAgent());
+    agents.forEach((agent, i) => {
+      const token = /** @type {HTMLElement} */ (this.#agents.children[i]);
+      const [row, col] = placeOf(world, agent.state);
+      token.style.transform = `translate(${col * this.#cell}px, ${row * this.#cell}px)`;
+      token.dataset.who = agent.who;
+      token.dataset.state = String(agent.state);
+      token.dataset.facing = String(agent.facing ?? "");
+    });
+  }
+
+  /** @param {KeyboardEvent} event @param {boolean} isDown */
+  #onKey(event, isDown) {
+    if (event.key.toLowerCase() !== "n" || event.repeat || (isDown && isTaken(event))) return;
+    this.#holdNumbers(isDown);
+  }
+
+  /** @param {boolean} isHeld */
+  #holdNumbers(isHeld) {
+    if (this.#numbersHeld === isHeld) return;
+    this.#numbersHeld = isHeld;
+    this.#inkIsOld = true;
+    this.#schedule();
+  }
+
+  /** Zoom and a move to another screen change the device pixels without changing the box. @param {AbortSignal} signal */
+  #watchZoom(signal) {
+    const query = matchMedia(`(resolution: ${window.devicePixelRatio}dppx)`);
+    const onChange = () => {
+      this.#resize();
+      if (!signal.aborted) this.#watchZoom(signal);
+    };
+    query.addEventListener("change", onChange, { once: true, signal });
+  }
+}
+
+/** @param {string} tag @param {string} className */
+function make(tag, className) {
+  const element = document.createElement(tag);
+  element.className = className;
+  return element;
+}
+
+/** A round token with two eyes; the stylesheet turns the eyes where `data-facing` says. */
+function makeAgent() {
+  const place = make("div", "agent");
+  const token = document.createElementNS(SVG, "svg");
+  token.setAttribute("viewBox", "-10 -10 20 20");
+  token.setAttribute("class", "agent-token");
+  token.append(circle("agent-body", 0, 0, 8));
+  const eyes = document.createElementNS(SVG, "g");
+  eyes.setAttribute("class", "agent-eyes");
+  eyes.append(circle("agent-white", -2.9, -0.6, 2.5), circle("agent-white", 2.9, -0.6, 2.5));
+  const pupils = document.createElementNS(SVG, "g");
+  pupils.setAttribute("class", "agent-pupils");
+  pupils.append(circle("agent-pupil", -2.9, -0.6, 1.25), circle("agent-pupil", 2.9, -0.6, 1.25));
+  eyes.append(pupils);
+  token.append(eyes);
+  place.append(token);
+  return place;
+}
+
+/** @param {string} className @param {number} x @param {number} y @param {number} r */
+function circle(className, x, y, r) {
+  const shape = document.createElementNS(SVG, "circle");
+  for (const [name, value] of Object.entries({ class: className, cx: x, cy: y, r })) shape.setAttribute(name, String(value));
+  return shape;
+}
+
+function prefersStill() {
+  return matchMedia("(prefers-reduced-motion: reduce)").matches;
+}
+
+customElements.define("irl-board", IrlBoard);

@@ -1,0 +1,155 @@
+// @ts-check
+/**
+ * How far a run is, in words: one line a learner and one for all of them.
+ * @import {Frame, Result, Run, RunStatus} from "#js/learning/types.js"
+ */
+import { counted, listed, significant } from "#js/charts/figures.js";
+
+/** @typedef {"waiting" | "learning" | "learned" | "ended"} Stage */
+
+const ORDINALS = ["first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth"];
+
+export class RunProgress {
+  /** @type {Map<string, Frame>} */
+  #latest = new Map();
+  /** @type {Map<string, Result>} */
+  #results = new Map();
+  /** @type {RunStatus} */
+  #status;
+  #reason = "";
+  /** @type {string[]} */
+  #learners;
+  /** @type {Record<string, string>} */
+  #titles;
+
+  /**
+   * @param {Pick<Run, "status" | "reason" | "learners">} run
+   * @param {Record<string, string>} titles how each learner is called
+   */
+  constructor(run, titles) {
+    this.#status = run.status;
+    this.#reason = run.reason ?? "";
+    this.#learners = Object.keys(run.learners);
+    this.#titles = titles;
+    for (const [learner, result] of Object.entries(run.learners)) if (result.outcome) this.settle(learner, result);
+  }
+
+  get status() {
+    return this.#status;
+  }
+
+  get isOver() {
+    return this.#status !== "queued" && this.#status !== "running";
+  }
+
+  /** @param {Frame} frame */
+  see(frame) {
+    this.#latest.set(frame.learner, frame);
+    if (this.#status === "queued") this.#status = "running";
+  }
+
+  /**
+   * @param {string} learner
+   * @param {Result} result
+   */
+  settle(learner, result) {
+    this.#results.set(learner, result);
+  }
+
+  /**
+   * @param {"done" | "failed" | "cancelled"} status
+   * @param {string} [reason]
+   */
+  end(status, reason = "") {
+    this.#status = status;
+    this.#reason = reason;
+  }
+
+  /**
+   * @param {string} learner
+   * @returns {Stage}
+   */
+  stageOf(learner) {
+    if (this.#results.has(learner)) return "learned";
+    if (this.isOver) return "ended";
+    return this.#latest.has(learner) ? "learning" : "waiting";
+  }
+
+  /**
+   * The share of its iterations a learner has behind it, 0…1.
+   * @param {string} learner
+   */
+  shareOf(learner) {
+    if (this.#results.has(learner)) return 1;
+    const frame = this.#latest.get(learner);
+    return frame ? Math.min(1, frame.iteration / Math.max(1, frame.iterations)) : 0;
+  }
+
+  /**
+   * @param {string} learner
+   * @param {Frame | null} [frame] the frame on the board; the latest when left out
+   */
+  sentenceOf(learner, frame = this.#latest.get(learner) ?? null) {
+    const stage = this.stageOf(learner);
+    if (frame) return `iteration ${frame.iteration} of ${frame.iterations} · ${gapInWords(frame.gap)}`;
+    if (stage === "learned") return gapInWords(this.#results.get(learner)?.gap ?? Number.NaN);
+    if (stage === "ended") return "not reached";
+    return this.#status === "queued" ? "waiting for a free worker" : `waiting its turn`;
+  }
+
+  /**
+   * How a learner ended, in the words of the server; empty while it has not.
+   * @param {string} learner
+   */
+  outcomeOf(learner) {
+    return this.#results.get(learner)?.sentence ?? "";
+  }
+
+  /** The whole run in one sentence. */
+  get sentence() {
+    switch (this.#status) {
+      case "queued":
+        return "Queued: learning starts as soon as a worker is free.";
+      case "running":
+        return this.#runningSentence();
+      case "done":
+        return this.#doneSentence();
+      case "cancelled":
+        return `Cancelled${this.#howFar()}. What was learned up to there stays on the boards.`;
+      default:
+        return `The run failed: ${this.#reason || "no reason was given"}`;
+    }
+  }
+
+  #runningSentence() {
+    const current = this.#learners.findLast((learner) => this.stageOf(learner) === "learning");
+    if (!current) return "Learning starts …";
+    if (this.#learners.length === 1) return `${this.#titleOf(current)} is learning.`;
+    const place = ORDINALS[this.#learners.indexOf(current)] ?? "next";
+    return `${this.#titleOf(current)} is learning, the ${place} of ${counted(this.#learners.length, "learner")}.`;
+  }
+
+  #doneSentence() {
+    const diverged = this.#learners.filter((learner) => this.#results.get(learner)?.outcome === "diverged");
+    const all = this.#learners.length === 1 ? this.#titleOf(this.#learners[0] ?? "") : `All ${this.#learners.length} learners`;
+    const verb = this.#learners.length === 1 ? "has" : "have";
+    if (diverged.length === 0) return `${all} ${verb} learned from your play.`;
+    return `The run is done. ${listed(diverged.map((learner) => this.#titleOf(learner)))} ran away instead of settling.`;
+  }
+
+  #howFar() {
+    const finished = this.#learners.filter((learner) => this.#results.has(learner)).length;
+    return finished > 0 ? ` after ${finished} of ${counted(this.#learners.length, "learner")}` : "";
+  }
+
+  /** @param {string} learner */
+  #titleOf(learner) {
+    return this.#titles[learner] ?? learner.toUpperCase();
+  }
+}
+
+/** @param {number} gap */
+export function gapInWords(gap) {
+  if (!Number.isFinite(gap)) return "the gap to your play has no bound";
+  return `the gap to your play is ${significant(gap)} visits`;
+}

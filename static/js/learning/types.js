@@ -1,0 +1,100 @@
+// @ts-check
+/**
+ * The JSON of the learning room, as ARCHITECTURE.md draws it.
+ *
+ * @typedef {"queued" | "running" | "done" | "failed" | "cancelled"} RunStatus
+ *
+ * @typedef {object} Frame what a learner shows of itself at one iteration
+ * @property {string} learner
+ * @property {number} iteration
+ * @property {number} iterations the limit
+ * @property {number} gap ‖μ^π − μ̃‖∞, visits
+ * @property {number | null} log_likelihood
+ * @property {number[]} reward (S,)
+ * @property {number[][]} policy (S, 4)
+ * @property {number[]} visitation (S,)
+ *
+ * @typedef {object} Result how a learner ended
+ * @property {"converged" | "iteration_limit" | "diverged" | "stopped" | null} outcome null: not there yet
+ * @property {string} [sentence]
+ * @property {number} [iterations]
+ * @property {number} [gap]
+ * @property {number | null} [log_likelihood]
+ * @property {number[][]} [reward] rows × cols
+ * @property {number[][]} [policy] (S, 4)
+ * @property {number[][]} [visitation] rows × cols
+ * @property {number} [n_left_out]
+ *
+ * @typedef {object} Run
+ * @property {string} id
+ * @property {string} world_id
+ * @property {RunStatus} status
+ * @property {string | null} reason
+ * @property {number} seed
+ * @property {Record<string, number | string>} settings
+ * @property {Record<string, Result>} learners
+ * @property {string} created_at
+ * @property {number} [n_left_out]
+ *
+ * @typedef {object} LearnerInfo
+ * @property {string} name
+ * @property {string} title
+ * @property {boolean} uses_ranking
+ * @property {boolean} uses_failures
+ * @property {string | null} missing why it cannot run yet, as a sentence
+ *
+ * @typedef {object} SettingInfo
+ * @property {string} name
+ * @property {string} symbol
+ * @property {number | string} default
+ * @property {number | null} minimum
+ * @property {number | null} maximum
+ * @property {string[] | null} [choices]
+ * @property {string} help
+ *
+ * @typedef {object} World
+ * @property {string} id
+ * @property {number} rows
+ * @property {number} cols
+ * @property {number} start
+ * @property {number} goal
+ * @property {number[]} goals
+ * @property {number[]} walls
+ * @property {number[][]} rewards
+ * @property {("red" | "blue" | "goal" | "wall")[][]} colours
+ * @property {number | null} seed
+ * @property {number | null} red_probability
+ * @property {number} slip
+ * @property {number} horizon
+ *
+ * @typedef {object} Demonstration
+ * @property {string} id
+ * @property {number[]} states
+ * @property {number[]} actions
+ * @property {number[]} rewards
+ * @property {number} total
+ * @property {"success" | "failure"} outcome
+ * @property {string} ending
+ * @property {boolean} discarded
+ * @property {string} created_at
+ *
+ * @typedef {object} Ranking
+ * @property {"success" | "failure"} outcome
+ * @property {string[][]} order
+ * @property {number} version
+ * @property {boolean} confirmed
+ * @property {Record<string, number>} weights
+ * @property {string} created_at
+ *
+ * @typedef {{ success: Ranking | null, failure: Ranking | null }} Rankings
+ *
+ * @typedef {object} LearnPageData
+ * @property {World} world
+ * @property {Demonstration[]} demonstrations
+ * @property {Rankings} rankings
+ * @property {Run | null} run
+ * @property {LearnerInfo[]} learners
+ * @property {SettingInfo[]} settings
+ */
+
+export {};
