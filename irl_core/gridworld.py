@@ -1,0 +1,209 @@
+"""Making worlds and playing them.
+
+World (IRLFR paper, Sec. IV-A): start top left, goal bottom right. With probability 0.3 a square is red and pays
+U[−7, −1], otherwise it is blue and pays U[−1, 0]; the goal pays rows + cols, once, and ends the attempt.
+
+Play: a step pays the reward of the square reached, also when the edge or a wall held the agent where it was. The start
+square's own reward is not paid at the beginning. With slip p the intended direction is taken with probability 1 − p and
+each of the other three with p / 3. Which one is decided by a counter-based hash of the attempt's id and the step, so
+that the browser, without asking, plays the very attempt the server later replays.
+"""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from irl_core.checks import Refused, identifier, is_integer, real_number, shown, whole_number
+from irl_core.errors import ImpossibleDemonstration, InvalidWorld
+from irl_core.grid import N_ACTIONS
+from irl_core.types import ENDINGS, MAX_SEED, MAX_SIDE, MIN_SIDE, Demonstration, Ending, World
+
+DEFAULT_SIDE = 7
+DEFAULT_RED_PROBABILITY = 0.3
+GENERATOR_VERSION = 1
+"""Raised whenever the same seed would give another world."""
+
+
+def generate_world(
+    seed: int,
+    *,
+    rows: int = DEFAULT_SIDE,
+    cols: int = DEFAULT_SIDE,
+    red_probability: float = DEFAULT_RED_PROBABILITY,
+    slip: float = 0.0,
+    walls: Sequence[int] = (),
+) -> World:
+    """The world of this seed: always the same one, with walls and slip as asked for.
+
+    Each square draws its colour, its red and its blue reward whether or not they are used, so that a higher
+    `red_probability` only turns more squares of the same world red.
+    """
+    _check_origin(seed=seed, rows=rows, cols=cols, red_probability=red_probability)
+    rng = np.random.default_rng(np.random.SeedSequence(seed))
+    is_red = rng.random((rows, cols)) < red_probability
+    red, blue = rng.uniform(-7.0, -1.0, (rows, cols)), rng.uniform(-1.0, 0.0, (rows, cols))
+    rewards = np.where(is_red, red, blue)
+    rewards[-1, -1] = rows + cols
+    return World(
+        rows=rows,
+        cols=cols,
+        rewards=rewards,
+        start=0,
+        goals=(rows * cols - 1,),
+        walls=walls,  # type: ignore[arg-type]  # World itself checks and sorts them
+        slip=slip,
+        seed=seed,
+        red_probability=red_probability,
+    )
+
+
+def draw_playable_world(
+    seed: int | np.random.Generator,
+    *,
+    rows: int = DEFAULT_SIDE,
+    cols: int = DEFAULT_SIDE,
+    red_probability: float = DEFAULT_RED_PROBABILITY,
+    slip: float = 0.0,
+    walls: Sequence[int] = (),
+) -> World:
+    """The first of a row of drawn worlds in which a success is possible; its own seed is on record in `world.seed`."""
+    rng = np.random.default_rng(seed)
+    n_draws = 0
+    while n_draws == 0 or n_draws < 50_000 // (rows * cols):  # a bound on the work: about a thousand draws at 7×7
+        world = generate_world(
+            int(rng.integers(2**32)), rows=rows, cols=cols, red_probability=red_probability, slip=slip, walls=walls
+        )
+        if success_is_possible(world):
+            return world
+        n_draws += 1
+    raise InvalidWorld(
+        f"In none of {n_draws} worlds of {rows}×{cols} squares drawn with red_probability {red_probability:g} can the"
+        " goal be reached with a total of 0 or more; ask for fewer red squares.",
+        field="red_probability",
+    )
+
+
+def success_is_possible(world: World) -> bool:
+    """Whether any attempt could reach a goal with a total of at least 0 (were every slip a lucky one)."""
+    return world.success_possible
+
+
+def simulate(
+    world: World,
+    actions: Sequence[int],
+    *,
+    attempt_id: str = "",
+    ending: str | None = None,
+    id: str | None = None,
+) -> Demonstration:
+    """Play the actions and tell what happened; raises ImpossibleDemonstration where they cannot have been played.
+
+    `attempt_id` decides the slips (and is the demonstration's id unless `id` says otherwise). `ending`, if claimed,
+    must fit what happened; otherwise it is found: at a goal, out of steps, or given up.
+    """
+    _check_attempt_id(attempt_id)
+    checked = _check_actions(world, actions)
+    states, rewards = [world.start], []
+    for step, intended in enumerate(checked):
+        if states[-1] in world.goals:
+            raise ImpossibleDemonstration("the goal was already reached; nothing comes after it.", step=step)
+        direction = slip_direction(attempt_id, step, intended, world.slip)
+        states.append(int(world.next_states[states[-1], direction]))
+        rewards.append(float(world.reward[states[-1]]))
+    at_goal, total = states[-1] in world.goals, math.fsum(rewards)
+    return Demonstration(
+        id=attempt_id if id is None else id,
+        states=np.array(states, dtype=np.int64),
+        actions=np.array(checked, dtype=np.int64),
+        rewards=np.array(rewards, dtype=np.float64),
+        total=total,
+        outcome="success" if at_goal and total >= 0.0 else "failure",
+        ending=_settle_ending(world, ending, at_goal=at_goal, n_steps=len(checked)),
+    )
+
+
+def slip_direction(attempt_id: str, step: int, intended: int, slip: float) -> int:
+    """The direction a step really takes: FNV-1a over "attempt_id:step", murmur3's finaliser, then the slip law.
+
+    u = h / 2³² is uniform on [0, 1): from `slip` upward the step goes as intended, below it each of the three others has
+    a third. static/js/board/moves.js is its twin; tests/core/slip_vectors.json holds both to the same table.
+    """
+    if slip <= 0.0:
+        return intended
+    u = _hash32(f"{attempt_id}:{step}".encode()) / 2**32
+    if u >= slip:
+        return intended
+    return (intended + 1 + min(2, int(u / slip * 3))) % N_ACTIONS
+
+
+def _hash32(data: bytes) -> int:
+    h = 0x811C9DC5
+    for byte in data:
+        h = (h ^ byte) * 0x01000193 & 0xFFFFFFFF
+    h = (h ^ h >> 16) * 0x85EBCA6B & 0xFFFFFFFF
+    h = (h ^ h >> 13) * 0xC2B2AE35 & 0xFFFFFFFF
+    return h ^ h >> 16
+
+
+def _check_origin(*, seed: int, rows: int, cols: int, red_probability: float) -> None:
+    """What must hold before anything is drawn; the World checks the rest."""
+    for name, value, minimum, maximum in (
+        ("rows", rows, MIN_SIDE, MAX_SIDE),
+        ("cols", cols, MIN_SIDE, MAX_SIDE),
+        ("seed", seed, 0, MAX_SEED),
+    ):
+        try:
+            whole_number(value, minimum=minimum, maximum=maximum)
+        except Refused as refused:
+            raise InvalidWorld(f"{name} {refused}.", field=name) from None
+    try:
+        real_number(red_probability, minimum=0.0, maximum=1.0)
+    except Refused as refused:
+        raise InvalidWorld(f"red_probability {refused}.", field="red_probability") from None
+
+
+def _check_attempt_id(attempt_id: str) -> None:
+    """Without an id (an attempt nobody keeps) the empty text decides the slips."""
+    try:
+        identifier(attempt_id or "none")
+    except Refused as refused:
+        raise ImpossibleDemonstration(f"the attempt's id {refused}.", field="id") from None
+
+
+def _check_actions(world: World, actions: Sequence[int]) -> list[int]:
+    if isinstance(actions, np.ndarray):
+        actions = actions.tolist()
+    if isinstance(actions, str | bytes) or not isinstance(actions, Sequence):
+        raise ImpossibleDemonstration(f"actions must be a list of directions 0 to 3, not {shown(actions)}.")
+    if len(actions) == 0:
+        raise ImpossibleDemonstration("an attempt needs at least one step.")
+    if len(actions) > world.horizon:
+        raise ImpossibleDemonstration(
+            f"{len(actions)} steps are more than this world allows ({world.horizon}).", step=world.horizon
+        )
+    for step, action in enumerate(actions):
+        if not is_integer(action) or not 0 <= int(action) < N_ACTIONS:
+            raise ImpossibleDemonstration(
+                f"an action is 0 up, 1 right, 2 down or 3 left, not {shown(action)}.", step=step
+            )
+    return [int(action) for action in actions]
+
+
+def _settle_ending(world: World, claimed: str | None, *, at_goal: bool, n_steps: int) -> Ending:
+    found: Ending = "goal" if at_goal else "out_of_steps" if n_steps == world.horizon else "gave_up"
+    if claimed is None:
+        return found
+    for ending in ENDINGS:
+        # Who is out of steps has also given up, if that is what the client says.
+        if claimed == ending and (ending == found or (ending == "gave_up" and not at_goal)):
+            return ending
+    if claimed not in ENDINGS:
+        raise ImpossibleDemonstration(
+            f'ending must be "goal", "gave_up" or "out_of_steps", not {shown(claimed)}.', field="ending"
+        )
+    raise ImpossibleDemonstration(
+        f'the ending is said to be "{claimed}", but after {n_steps} of at most {world.horizon} steps the agent is'
+        f" {'at' if at_goal else 'not at'} a goal.",
+        field="ending",
+    )

@@ -1,0 +1,325 @@
+"""The values everything else speaks of: worlds, demonstrations, rankings. Frozen; their arrays are read-only."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, Final, Literal, Self, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from irl_core import grid
+from irl_core.arrays import IntMatrix, IntVector, Matrix, Vector, read_only
+from irl_core.checks import Refused, is_integer, real_number, shown, whole_number
+from irl_core.errors import InvalidRanking, InvalidWorld
+
+MIN_SIDE: Final = 2
+MAX_SIDE: Final = 100
+MAX_SLIP: Final = 0.9
+MAX_SEED: Final = 2**53 - 1  # the largest integer that JSON and JavaScript carry exactly
+MAX_REWARD: Final = 1e6
+RED_BELOW: Final = -1.0
+"""Red squares pay U[−7, −1], blue ones U[−1, 0]: less than −1 is red."""
+
+DemonstrationOutcome: TypeAlias = Literal["success", "failure"]
+Ending: TypeAlias = Literal["goal", "gave_up", "out_of_steps"]
+Colour: TypeAlias = Literal["red", "blue", "goal", "wall"]
+OUTCOMES: Final[tuple[DemonstrationOutcome, ...]] = ("success", "failure")
+ENDINGS: Final[tuple[Ending, ...]] = ("goal", "gave_up", "out_of_steps")
+
+
+@dataclass(frozen=True, eq=False)
+class World:
+    """A grid and its rewards. A step pays the reward of the square it reaches; a goal pays once and ends the attempt.
+
+    `rewards` has shape (rows, cols); states are numbered row by row. `slip` is the probability that a step goes in one
+    of the three other directions instead. `horizon`, the longest attempt, defaults to min(2·rows·cols, 8·(rows + cols)),
+    never less than twice the shortest path. `seed` and `red_probability` say where the world came from.
+    """
+
+    rows: int
+    cols: int
+    rewards: Matrix
+    start: int
+    goals: tuple[int, ...]
+    walls: tuple[int, ...] = ()
+    slip: float = 0.0
+    seed: int | None = None
+    red_probability: float | None = None
+    horizon: int = field(default=0, kw_only=True)
+
+    def __post_init__(self) -> None:
+        rows = _whole("rows", self.rows, minimum=MIN_SIDE, maximum=MAX_SIDE)
+        cols = _whole("cols", self.cols, minimum=MIN_SIDE, maximum=MAX_SIDE)
+        start = _whole("start", self.start, minimum=0, maximum=rows * cols - 1)
+        goals = _squares("goals", self.goals, n_states=rows * cols)
+        walls = _squares("walls", self.walls, n_states=rows * cols)
+        self._set(rows=rows, cols=cols, start=start, goals=goals, walls=tuple(sorted(walls)))
+        self._set(rewards=_rewards(self.rewards, rows=rows, cols=cols))
+        self._set(slip=_real("slip", self.slip, minimum=0.0, maximum=MAX_SLIP))
+        if self.seed is not None:
+            self._set(seed=_whole("seed", self.seed, minimum=0, maximum=MAX_SEED))
+        if self.red_probability is not None:
+            share = _real("red_probability", self.red_probability, minimum=0.0, maximum=1.0)
+            self._set(red_probability=share)
+        self._check_squares()
+        self._settle_horizon()
+
+    @property
+    def n_states(self) -> int:
+        """S = rows · cols."""
+        return self.rows * self.cols
+
+    @property
+    def goal(self) -> int:
+        """The first goal."""
+        return self.goals[0]
+
+    @cached_property
+    def reward(self) -> Vector:
+        """What reaching each state pays, shape (S,)."""
+        flat = self.rewards.reshape(-1)
+        read_only(flat)
+        return flat
+
+    @cached_property
+    def next_states(self) -> IntMatrix:
+        """The state each direction leads to, shape (S, 4); goals and walls lead to themselves."""
+        reached = grid.neighbours(self.rows, self.cols, goals=self.goals, walls=self.walls)
+        read_only(reached)
+        return reached
+
+    @cached_property
+    def success_possible(self) -> bool:
+        """Whether any attempt could reach a goal with a total of at least 0 (were every slip a lucky one)."""
+        return grid.can_reach_total(
+            self.next_states, self.reward, start=self.start, goals=self.goals, horizon=self.horizon, total=0.0
+        )
+
+    @property
+    def colours(self) -> tuple[tuple[Colour, ...], ...]:
+        """What a person sees of each square, rows × cols."""
+        return tuple(tuple(self._colour(row * self.cols + col) for col in range(self.cols)) for row in range(self.rows))
+
+    def to_json(self) -> dict[str, Any]:
+        """The world as the API and files have it."""
+        return {
+            "rows": self.rows,
+            "cols": self.cols,
+            "start": self.start,
+            "goal": self.goal,
+            "goals": list(self.goals),
+            "walls": list(self.walls),
+            "rewards": self.rewards.tolist(),
+            "colours": [list(row) for row in self.colours],
+            "seed": self.seed,
+            "red_probability": self.red_probability,
+            "slip": self.slip,
+            "horizon": self.horizon,
+            "success_possible": self.success_possible,
+        }
+
+    @classmethod
+    def from_json(cls, data: Mapping[str, Any]) -> Self:
+        """The world that `to_json` wrote. Keys it does not need (id, colours, …) are passed over."""
+        missing = [key for key in ("rows", "cols", "rewards") if key not in data]
+        if missing:
+            raise InvalidWorld(f"{missing[0]} is missing.", field=missing[0])
+        rows = _whole("rows", data["rows"], minimum=MIN_SIDE, maximum=MAX_SIDE)
+        cols = _whole("cols", data["cols"], minimum=MIN_SIDE, maximum=MAX_SIDE)
+        goals = data["goals"] if "goals" in data else [data.get("goal", rows * cols - 1)]
+        horizon = data.get("horizon")
+        return cls(
+            rows=rows,
+            cols=cols,
+            rewards=data["rewards"],
+            start=data.get("start", 0),
+            goals=goals,
+            walls=data.get("walls", ()),
+            slip=data.get("slip", 0.0),
+            seed=data.get("seed"),
+            red_probability=data.get("red_probability"),
+            horizon=0 if horizon is None else _whole("horizon", horizon, minimum=1, maximum=2 * rows * cols),
+        )
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, World):
+            return NotImplemented
+        return self._facts() == other._facts() and np.array_equal(self.rewards, other.rewards)
+
+    def __hash__(self) -> int:
+        return hash((self._facts(), self.rewards.tobytes()))
+
+    def _facts(self) -> tuple[object, ...]:
+        walls_and_goals = (self.goals, self.walls)
+        return (
+            self.rows,
+            self.cols,
+            self.start,
+            *walls_and_goals,
+            self.slip,
+            self.seed,
+            self.red_probability,
+            self.horizon,
+        )
+
+    def _set(self, **values: object) -> None:
+        for name, value in values.items():
+            object.__setattr__(self, name, value)
+
+    def _check_squares(self) -> None:
+        if not self.goals:
+            raise InvalidWorld("A world needs at least one goal.", field="goals")
+        if self.start in self.goals:
+            raise InvalidWorld(f"The start, square {self.start}, cannot be a goal.", field="goals")
+        for name, squares in (("start", (self.start,)), ("goal", self.goals)):
+            walled = [square for square in squares if square in self.walls]
+            if walled:
+                raise InvalidWorld(f"Square {walled[0]} is the {name} and cannot be a wall.", field="walls")
+
+    def _settle_horizon(self) -> None:
+        steps = grid.distances(self.next_states, self.start)[list(self.goals)]
+        if (steps < 0).all():
+            raise InvalidWorld("No goal can be reached from the start: the walls close the way.", field="walls")
+        shortest = int(steps[steps >= 0].min())
+        if self.horizon == 0:
+            self._set(horizon=grid.default_horizon(self.rows, self.cols, shortest=shortest))
+        self._set(horizon=_whole("horizon", self.horizon, minimum=shortest, maximum=2 * self.n_states))
+
+    def _colour(self, state: int) -> Colour:
+        if state in self.goals:
+            return "goal"
+        if state in self.walls:
+            return "wall"
+        return "red" if self.reward[state] < RED_BELOW else "blue"
+
+
+@dataclass(frozen=True, eq=False)
+class Demonstration:
+    """One attempt, as `simulate` found it: T steps through T + 1 states. Slips are in the states.
+
+    `outcome` is "success" if a goal was reached with a total of at least 0, else "failure".
+    """
+
+    id: str
+    states: IntVector
+    actions: IntVector
+    rewards: Vector
+    total: float
+    outcome: DemonstrationOutcome
+    ending: Ending
+
+    def __post_init__(self) -> None:
+        for array in (self.states, self.actions, self.rewards):
+            read_only(array)
+
+    @property
+    def n_steps(self) -> int:
+        """T, the number of steps."""
+        return len(self.actions)
+
+    @property
+    def reached_goal(self) -> bool:
+        """Whether the attempt ended at a goal, whatever its total."""
+        return self.ending == "goal"
+
+    def to_json(self) -> dict[str, Any]:
+        """The demonstration as the API and files have it."""
+        return {
+            "id": self.id,
+            "states": self.states.tolist(),
+            "actions": self.actions.tolist(),
+            "rewards": self.rewards.tolist(),
+            "total": self.total,
+            "outcome": self.outcome,
+            "ending": self.ending,
+        }
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Demonstration) and self.to_json() == other.to_json()
+
+    def __hash__(self) -> int:
+        return hash((self.id, self.actions.tobytes(), self.states.tobytes()))
+
+
+@dataclass(frozen=True)
+class Ranking:
+    """An order of demonstrations of one outcome: best success first, or worst failure first. A group is a tie."""
+
+    outcome: DemonstrationOutcome
+    groups: tuple[tuple[str, ...], ...]
+
+    def __post_init__(self) -> None:
+        if self.outcome not in OUTCOMES:
+            raise InvalidRanking(f'outcome must be "success" or "failure", not {shown(self.outcome)}.', field="outcome")
+        object.__setattr__(self, "groups", check_groups(self.groups))
+
+    @property
+    def ids(self) -> tuple[str, ...]:
+        """Every ranked demonstration, in display order."""
+        return tuple(id for group in self.groups for id in group)
+
+
+def check_groups(groups: Iterable[Iterable[str]]) -> tuple[tuple[str, ...], ...]:
+    """Groups of ids in display order: none empty, no id twice."""
+    if not _is_list(groups) or not all(_is_list(group) for group in groups):
+        raise InvalidRanking("An order is a list of groups, each a list of demonstration ids.", field="order")
+    checked = tuple(tuple(group) for group in groups)
+    seen: set[str] = set()
+    for group in checked:
+        if not group:
+            raise InvalidRanking("A group in the order is empty; leave it out.", field="order")
+        for id in group:
+            if not isinstance(id, str):
+                raise InvalidRanking(f"A demonstration's id is a text, not {shown(id)}.", field="order")
+            if id in seen:
+                raise InvalidRanking(f"Demonstration {shown(id)} is in the order twice.", field="order")
+            seen.add(id)
+    return checked
+
+
+def _rewards(values: ArrayLike, *, rows: int, cols: int) -> Matrix:
+    """Rewards as a read-only copy; every number finite and at most a million in size."""
+    shape_wanted = f"rewards must be {rows} rows of {cols} numbers"
+    if isinstance(values, np.ndarray):
+        values = values.tolist()
+    if not _is_list(values) or len(values) != rows or not all(_is_list(row) and len(row) == cols for row in values):
+        raise InvalidWorld(f"{shape_wanted}.", field="rewards")
+    for row, numbers in enumerate(values):
+        for col, number in enumerate(numbers):
+            try:
+                real_number(number, minimum=-MAX_REWARD, maximum=MAX_REWARD)
+            except Refused as refused:
+                raise InvalidWorld(f"rewards[{row}][{col}] {refused}.", field="rewards") from None
+    rewards: Matrix = np.array(values, dtype=np.float64)
+    read_only(rewards)
+    return rewards
+
+
+def _squares(name: str, values: Iterable[int], *, n_states: int) -> tuple[int, ...]:
+    if not _is_list(values):
+        raise InvalidWorld(f"{name} must be a list of square numbers, not {shown(values)}.", field=name)
+    squares = [_whole(name, value, minimum=0, maximum=n_states - 1) for value in values]
+    if len(set(squares)) < len(squares):
+        raise InvalidWorld(f"{name} names a square twice.", field=name)
+    return tuple(squares)
+
+
+def _whole(name: str, value: object, *, minimum: int, maximum: int) -> int:
+    if is_integer(value) and minimum <= int(value) <= maximum:
+        return int(value)
+    try:
+        return whole_number(value, minimum=minimum, maximum=maximum)
+    except Refused as refused:
+        raise InvalidWorld(f"{name} {refused}.", field=name) from None
+
+
+def _real(name: str, value: object, *, minimum: float, maximum: float) -> float:
+    try:
+        return real_number(value, minimum=minimum, maximum=maximum)
+    except Refused as refused:
+        raise InvalidWorld(f"{name} {refused}.", field=name) from None
+
+
+def _is_list(value: object) -> bool:
+    return isinstance(value, Sequence | np.ndarray) and not isinstance(value, str | bytes)

@@ -1,0 +1,50 @@
+"""How much each demonstration counts.
+
+Suppose the quality of demonstrations is uniform on (0, 1) (the paper's "normal" in Sec. III-D is a slip). The i-th of N
+order statistics has mean i / (N + 1); its share of the sum is
+
+    θ_i = 2 i / (N (N + 1)),   i = 1 … N,   Σ θ_i = 1,
+
+with i = N for the best success and for the *worst* failure. Those that tie share the mean of their θ. Unranked
+demonstrations weigh 1 / N. Feature counts (Eqs. 3, 7, 8) are sums over time, not divided by length, so that with Σ θ = 1
+weighted and unweighted ones are on one scale:
+
+    μ̃_s = Σ_i θ_i · (how often demonstration i was in s, its start included, its goal once).
+"""
+
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+
+from irl_core.arrays import Vector
+from irl_core.types import Demonstration, World, check_groups
+
+
+def rank_weights(groups: Iterable[Iterable[str]]) -> dict[str, float]:
+    """θ of each id from groups in display order: the first group weighs most; a group of several is a tie."""
+    checked = check_groups(groups)  # type: ignore[arg-type]
+    n = sum(len(group) for group in checked)
+    weights: dict[str, float] = {}
+    rank = n
+    for group in checked:
+        mean_rank = rank - (len(group) - 1) / 2
+        weights |= dict.fromkeys(group, 2.0 * mean_rank / (n * (n + 1)))
+        rank -= len(group)
+    return weights
+
+
+def uniform_weights(ids: Iterable[str]) -> dict[str, float]:
+    """The same weight for each id; they sum to 1."""
+    listed = list(dict.fromkeys(ids))
+    return dict.fromkeys(listed, 1.0 / len(listed)) if listed else {}
+
+
+def feature_counts(world: World, demonstrations: Iterable[Demonstration], weights: Mapping[str, float]) -> Vector:
+    """μ̃, the weighted sum of visits to each state, shape (S,).
+
+    Summed in the order of ids, so that the order in which demonstrations are given changes no bit of the result.
+    """
+    counts: Vector = np.zeros(world.n_states)
+    for demonstration in sorted(demonstrations, key=lambda one: one.id):
+        counts += weights[demonstration.id] * np.bincount(demonstration.states, minlength=world.n_states)
+    return counts
