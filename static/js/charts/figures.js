@@ -1,18 +1,17 @@
-// @ts-check
-/** How numbers are written everywhere on the pages Learn and Compare: a true minus sign, one unit, no "−0.0". */
+/** Measured figures in words: what may be missing or not finite, intervals, shares, lists of names. */
+
+import { number } from "#js/lib/format.js";
 
 const MINUS = "−";
 
 /**
- * A number with a fixed count of decimals: `figure(-3.44)` is "−3.4".
+ * A number with a fixed count of decimals, a dash where there is none: `figure(-3.44)` is "−3.4".
  * @param {number | null | undefined} value
  * @param {number} [decimals]
  */
 export function figure(value, decimals = 1) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
-  const rounded = value.toFixed(decimals);
-  const isZero = Number(rounded) === 0;
-  return isZero ? rounded.replace("-", "") : rounded.replace("-", MINUS);
+  return number(value, decimals);
 }
 
 /**
@@ -41,16 +40,6 @@ export function withError(mean, standardError) {
 /** @param {number | null | undefined} share of 1 */
 export function percent(share) {
   return share === null || share === undefined || !Number.isFinite(share) ? "–" : `${figure(100 * share, 0)} %`;
-}
-
-/**
- * "1 success", "3 failures".
- * @param {number} count
- * @param {string} singular
- * @param {string} [plural]
- */
-export function counted(count, singular, plural = `${singular}s`) {
-  return `${count} ${count === 1 ? singular : plural}`;
 }
 
 /**

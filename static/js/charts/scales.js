@@ -1,4 +1,3 @@
-// @ts-check
 /** The arithmetic of axes: where a number lies and where the ticks stand. */
 
 /**

@@ -1,4 +1,3 @@
-// @ts-check
 /**
  * The command that computes a run again from its demonstration file.
  * @import {Run, SettingInfo} from "#js/learning/types.js"

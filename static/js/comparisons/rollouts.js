@@ -1,4 +1,3 @@
-// @ts-check
 /**
  * Where everybody is in an episode: positions, totals and flags from recorded states. Each agent has its own number of
  * episodes (the person has their attempts), so episode k of the chooser is episode k modulo that number.

@@ -1,4 +1,3 @@
-// @ts-check
 /**
  * The result in words. Two means closer than two standard errors of the learner's are "about the same": the sentence
  * never claims more than fifty episodes can show.

@@ -1,4 +1,3 @@
-// @ts-check
 /**
  * The one clock all rollouts of the Compare page run on. It counts steps; who has fewer waits at the end. After the last step it
  * rests a moment, then starts again when it loops.

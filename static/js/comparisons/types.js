@@ -1,4 +1,3 @@
-// @ts-check
 /**
  * The JSON of the comparison room, as ARCHITECTURE.md draws it.
  * @import {Demonstration, Rankings, Run, World, LearnerInfo, SettingInfo} from "#js/learning/types.js"

@@ -1,4 +1,3 @@
-// @ts-check
 /**
  * The recorded frames of a run, kept by learner and iteration. A frame that comes twice (a stream that resumed) takes
  * the place of its twin, so replays do no harm; frames may come in any order.

@@ -1,9 +1,8 @@
-// @ts-check
 /**
  * What a run learns from: the ranked demonstrations with their weights, and the squares they touched.
  * @import {Demonstration, LearnerInfo, Rankings, Run, World} from "#js/learning/types.js"
  */
-import { counted } from "#js/charts/figures.js";
+import { plural } from "#js/lib/format.js";
 
 /** @typedef {{ demonstration: Demonstration, weight: number }} Weighted weight θ, 0…1 */
 
@@ -48,7 +47,7 @@ export function describeMaterial(demonstrations, rankings) {
   const successes = weighted(demonstrations, rankings, "success").length;
   const failures = weighted(demonstrations, rankings, "failure").length;
   if (successes + failures === 0) return "Nothing to learn from yet.";
-  const counts = `${counted(successes, "success", "successes")} and ${counted(failures, "failure")}`;
+  const counts = `${plural(successes, "success", "successes")} and ${plural(failures, "failure")}`;
   return `${counts}, ${orderInWords(successes, failures, rankings)}.`;
 }
 

@@ -1,9 +1,9 @@
-// @ts-check
 /**
  * How far a run is, in words: one line a learner and one for all of them.
  * @import {Frame, Result, Run, RunStatus} from "#js/learning/types.js"
  */
-import { counted, listed, significant } from "#js/charts/figures.js";
+import { listed, significant } from "#js/charts/figures.js";
+import { plural } from "#js/lib/format.js";
 
 /** @typedef {"waiting" | "learning" | "learned" | "ended"} Stage */
 
@@ -126,7 +126,7 @@ export class RunProgress {
     if (!current) return "Learning starts …";
     if (this.#learners.length === 1) return `${this.#titleOf(current)} is learning.`;
     const place = ORDINALS[this.#learners.indexOf(current)] ?? "next";
-    return `${this.#titleOf(current)} is learning, the ${place} of ${counted(this.#learners.length, "learner")}.`;
+    return `${this.#titleOf(current)} is learning, the ${place} of ${plural(this.#learners.length, "learner")}.`;
   }
 
   #doneSentence() {
@@ -139,7 +139,7 @@ export class RunProgress {
 
   #howFar() {
     const finished = this.#learners.filter((learner) => this.#results.has(learner)).length;
-    return finished > 0 ? ` after ${finished} of ${counted(this.#learners.length, "learner")}` : "";
+    return finished > 0 ? ` after ${finished} of ${plural(this.#learners.length, "learner")}` : "";
   }
 
   /** @param {string} learner */

@@ -1,4 +1,3 @@
-// @ts-check
 /**
  * Where on the time line of iterations the boards stand. While it follows, it stands at the newest iteration; taking
  * hold of the scrubber stops that, playing back moves it on by itself.

@@ -1,4 +1,3 @@
-// @ts-check
 /**
  * The JSON of the learning room, as ARCHITECTURE.md draws it.
  *
@@ -52,20 +51,7 @@
  * @property {string[] | null} [choices]
  * @property {string} help
  *
- * @typedef {object} World
- * @property {string} id
- * @property {number} rows
- * @property {number} cols
- * @property {number} start
- * @property {number} goal
- * @property {number[]} goals
- * @property {number[]} walls
- * @property {number[][]} rewards
- * @property {("red" | "blue" | "goal" | "wall")[][]} colours
- * @property {number | null} seed
- * @property {number | null} red_probability
- * @property {number} slip
- * @property {number} horizon
+ * @typedef {import("#js/board/state.js").World} World
  *
  * @typedef {object} Demonstration
  * @property {string} id

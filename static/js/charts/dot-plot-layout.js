@@ -1,0 +1,87 @@
+/**
+ * Where everything on the dot plot lies: one row an agent in the order given, its mean with an interval of two standard
+ * errors, its exact expected return and its greedy return on one axis with zero and the optimum.
+ * @import {Entry} from "#js/comparisons/types.js"
+ */
+import { linearScale, roundDomain, ticks } from "#js/charts/scales.js";
+
+export const ROW_HEIGHT = 34;
+const TOP = 26;
+const AXIS = 30;
+const RIGHT = 18;
+
+/**
+ * @typedef {object} DotRow
+ * @property {Entry} entry
+ * @property {number} y
+ * @property {number} mean x of the marker
+ * @property {[number, number] | null} interval x of both ends
+ * @property {number | null} expected
+ * @property {number | null} greedy
+ *
+ * @typedef {object} DotPlotLayout
+ * @property {number} width
+ * @property {number} height
+ * @property {number} left where the plotting area begins
+ * @property {number} right
+ * @property {number} top
+ * @property {number} bottom
+ * @property {DotRow[]} rows
+ * @property {{ x: number, value: number }[]} ticks
+ * @property {number | null} zero x of the zero line, null where it lies outside
+ * @property {number | null} optimum
+ */
+
+/** How many standard errors the whisker spans to each side. */
+export const WHISKER = 2;
+
+/**
+ * @param {Entry[]} entries
+ * @param {number} width pixels
+ * @returns {DotPlotLayout}
+ */
+export function layOutDotPlot(entries, width) {
+  const left = Math.min(104, Math.max(76, width * 0.22));
+  const right = width - RIGHT;
+  const optimum = entries.find((entry) => entry.who === "optimal");
+  const optimal = optimum ? (optimum.expected_return ?? optimum.mean_return) : null;
+  const domain = roundDomain([0, ...entries.flatMap(extentOf), ...(optimal === null ? [] : [optimal])]);
+  const x = linearScale(domain, [left, right]);
+  const bottom = TOP + entries.length * ROW_HEIGHT;
+  return {
+    width,
+    height: bottom + AXIS,
+    left,
+    right,
+    top: TOP,
+    bottom,
+    rows: entries.map((entry, i) => ({
+      entry,
+      y: TOP + (i + 0.5) * ROW_HEIGHT,
+      mean: x(entry.mean_return),
+      interval: intervalOf(entry, x),
+      expected: entry.expected_return === null ? null : x(entry.expected_return),
+      greedy: entry.greedy_return === null ? null : x(entry.greedy_return),
+    })),
+    ticks: ticks(domain[0], domain[1], Math.max(3, Math.floor((right - left) / 70))).map((value) => ({ x: x(value), value })),
+    zero: domain[0] < 0 && domain[1] > 0 ? x(0) : null,
+    optimum: optimal === null ? null : x(optimal),
+  };
+}
+
+/** @param {Entry} entry */
+function extentOf(entry) {
+  const reach = WHISKER * (entry.standard_error ?? 0);
+  const exact = [entry.expected_return, entry.greedy_return].filter((value) => value !== null);
+  return [entry.mean_return - reach, entry.mean_return + reach, ...exact];
+}
+
+/**
+ * @param {Entry} entry
+ * @param {(value: number) => number} x
+ * @returns {[number, number] | null}
+ */
+function intervalOf(entry, x) {
+  const reach = WHISKER * (entry.standard_error ?? 0);
+  return reach > 0 ? [x(entry.mean_return - reach), x(entry.mean_return + reach)] : null;
+}
