@@ -158,11 +158,9 @@ def install_project() -> None:
 
 def pip() -> Command:
     """The environment's own pip, or the system's working on the environment."""
-    own = quietly([PYTHON, "-m", "pip", "--version"])
-    return [
-        *([PYTHON, "-m", "pip"] if own else [sys.executable, "-m", "pip", "--python", PYTHON]),
-        "--disable-pip-version-check",
-    ]
+    if quietly([PYTHON, "-m", "pip", "--version"]):
+        return [PYTHON, "-m", "pip", "--disable-pip-version-check"]
+    return [sys.executable, "-m", "pip", "--disable-pip-version-check", "--python", PYTHON]
 
 
 def npm_command() -> list[str]:
