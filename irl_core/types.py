@@ -6,7 +6,6 @@ from functools import cached_property
 from typing import Any, Final, Literal, Self, TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from irl_core import grid
 from irl_core.arrays import IntMatrix, IntVector, Matrix, Vector, read_only
@@ -127,7 +126,7 @@ class World:
             raise InvalidWorld(f"{missing[0]} is missing.", field=missing[0])
         rows = _whole("rows", data["rows"], minimum=MIN_SIDE, maximum=MAX_SIDE)
         cols = _whole("cols", data["cols"], minimum=MIN_SIDE, maximum=MAX_SIDE)
-        goals = data["goals"] if "goals" in data else [data.get("goal", rows * cols - 1)]
+        goals: Any = data["goals"] if "goals" in data else [data.get("goal", rows * cols - 1)]
         horizon = data.get("horizon")
         return cls(
             rows=rows,
@@ -278,7 +277,7 @@ def check_groups(groups: Iterable[Iterable[str]]) -> tuple[tuple[str, ...], ...]
     return checked
 
 
-def _rewards(values: ArrayLike, *, rows: int, cols: int) -> Matrix:
+def _rewards(values: Any, *, rows: int, cols: int) -> Matrix:
     """Rewards as a read-only copy; every number finite and at most a million in size."""
     shape_wanted = f"rewards must be {rows} rows of {cols} numbers"
     if isinstance(values, np.ndarray):

@@ -6,8 +6,8 @@ order statistics has mean i / (N + 1); its share of the sum is
     θ_i = 2 i / (N (N + 1)),   i = 1 … N,   Σ θ_i = 1,
 
 with i = N for the best success and for the *worst* failure. Those that tie share the mean of their θ. Unranked
-demonstrations weigh 1 / N. Feature counts (Eqs. 3, 7, 8) are sums over time, not divided by length, so that with Σ θ = 1
-weighted and unweighted ones are on one scale:
+demonstrations weigh 1 / N. Feature counts (Eqs. 3, 7, 8) are sums over time, not divided by length, so that with
+Σ θ = 1 weighted and unweighted ones are on one scale:
 
     μ̃_s = Σ_i θ_i · (how often demonstration i was in s, its start included, its goal once).
 """
@@ -22,7 +22,7 @@ from irl_core.types import Demonstration, World, check_groups
 
 def rank_weights(groups: Iterable[Iterable[str]]) -> dict[str, float]:
     """θ of each id from groups in display order: the first group weighs most; a group of several is a tie."""
-    checked = check_groups(groups)  # type: ignore[arg-type]
+    checked = check_groups(groups)
     n = sum(len(group) for group in checked)
     weights: dict[str, float] = {}
     rank = n

@@ -1,0 +1,127 @@
+"""What a policy earns in a world, exactly and by playing it.
+
+The return is the sum of the rewards of the squares reached within N steps, the goal once, the start's own not paid:
+
+    V_n(s) = Σ_a π(a | s) Σ_d T(d | a) (r(s′_d) + V_{n−1}(s′_d)),   V_0 = 0,   V(goal) = 0.
+
+A policy is a matrix (S, 4), the same at every step, or a HardPlan, which looks at the steps to go.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from irl_core import grid
+from irl_core.arrays import BoolVector, IntVector, Matrix, Policy, Vector
+from irl_core.planning import HardPlan, direction_law, hard_plan
+from irl_core.types import World
+
+
+@dataclass(frozen=True)
+class Rollout:
+    """One episode: the states it went through, what it earned, whether it arrived."""
+
+    states: tuple[int, ...]
+    total: float
+    reached_goal: bool
+
+    def to_json(self) -> dict[str, Any]:
+        """The rollout as the API has it."""
+        return {"states": list(self.states), "total": self.total, "reached_goal": self.reached_goal}
+
+
+def expected_return(world: World, policy: Policy | HardPlan, *, horizon: int | None = None) -> float:
+    """V_N(start), exact; N is the world's horizon unless said otherwise (and a plan's own horizon at most)."""
+    value: Vector = np.zeros(world.n_states)
+    goals = list(world.goals)
+    for law in _laws_last_step_first(world, policy, _n_steps(world, policy, horizon)):
+        value = np.einsum("sd,sd->s", law, (world.reward + value)[world.next_states])
+        value[goals] = 0.0
+    return float(value[world.start])
+
+
+def expected_visits(world: World, policy: Policy | HardPlan, *, horizon: int | None = None) -> Vector:
+    """How often each state is visited on average when the policy is executed, start and goal included, shape (S,)."""
+    ahead = world.next_states.reshape(-1)
+    not_goal = ~grid.mask(world.n_states, world.goals)
+    here: Vector = np.zeros(world.n_states)
+    here[world.start] = 1.0
+    visits: Vector = here.copy()
+    for law in _laws_first_step_first(world, policy, _n_steps(world, policy, horizon)):
+        moved = law * (here * not_goal)[:, None]
+        here = np.bincount(ahead, moved.reshape(-1), world.n_states).astype(np.float64, copy=False)
+        visits += here
+    return visits
+
+
+def rollouts(
+    world: World,
+    policy: Policy | HardPlan,
+    n_episodes: int,
+    rng: np.random.Generator,
+    *,
+    horizon: int | None = None,
+) -> list[Rollout]:
+    """Play the policy from the start, all episodes side by side. Each step draws one number for each episode."""
+    n_steps = _n_steps(world, policy, horizon)
+    is_goal = grid.mask(world.n_states, world.goals)
+    states = np.full((n_steps + 1, n_episodes), world.start, dtype=np.int64)
+    for step, law in enumerate(_laws_first_step_first(world, policy, n_steps), start=1):
+        here = states[step - 1]
+        thresholds = law[here, :-1].cumsum(axis=1)
+        direction = (rng.random(n_episodes)[:, None] >= thresholds).sum(axis=1)
+        states[step] = world.next_states[here, direction]
+        if is_goal[states[step]].all():
+            states = states[: step + 1]
+            break
+    return [_rollout(world, path, is_goal[path]) for path in states.T]
+
+
+def optimum(world: World) -> float:
+    """The largest expected return within the world's horizon, V_N(start) of the best plan."""
+    return float(optimal_plan(world).values[-1, world.start])
+
+
+def optimal_plan(world: World) -> HardPlan:
+    """The plan that earns the optimum; it need not arrive where arriving does not pay."""
+    return hard_plan(world, world.reward)
+
+
+def greedy_plan(world: World, reward: Vector) -> HardPlan:
+    """The best path to a goal under a learned reward, to be measured on the true one."""
+    return hard_plan(world, reward, must_reach_goal=True)
+
+
+def _rollout(world: World, path: IntVector, arrived: BoolVector) -> Rollout:
+    reached_goal = bool(arrived.any())
+    n_steps = int(arrived.argmax()) if reached_goal else len(path) - 1
+    states = path[: n_steps + 1]
+    return Rollout(tuple(states.tolist()), float(world.reward[states[1:]].sum()), reached_goal)
+
+
+def _n_steps(world: World, policy: Policy | HardPlan, horizon: int | None) -> int:
+    n_steps = world.horizon if horizon is None else horizon
+    return min(n_steps, policy.horizon) if isinstance(policy, HardPlan) else n_steps
+
+
+def _laws_first_step_first(world: World, policy: Policy | HardPlan, n_steps: int) -> Iterator[Matrix]:
+    if isinstance(policy, HardPlan):
+        return (_plan_law(world, policy, n) for n in range(n_steps, 0, -1))
+    law = direction_law(world, policy)
+    return (law for _ in range(n_steps))
+
+
+def _laws_last_step_first(world: World, policy: Policy | HardPlan, n_steps: int) -> Iterator[Matrix]:
+    if isinstance(policy, HardPlan):
+        return (_plan_law(world, policy, n) for n in range(1, n_steps + 1))
+    law = direction_law(world, policy)
+    return (law for _ in range(n_steps))
+
+
+def _plan_law(world: World, plan: HardPlan, n: int) -> Matrix:
+    """The direction law of a plan with n steps to go, shape (S, 4)."""
+    chosen: Matrix = np.zeros((world.n_states, grid.N_ACTIONS))
+    chosen[np.arange(world.n_states), plan.actions[n - 1]] = 1.0
+    return direction_law(world, chosen)
