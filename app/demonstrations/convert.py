@@ -1,0 +1,40 @@
+"""Rows ⇄ irl_core: the door of this room to the science."""
+
+from typing import Any
+
+import numpy as np
+
+from app.demonstrations.schemas import DemonstrationIn
+from app.models import Demonstration as DemonstrationRow
+from app.models import World
+from app.worlds.convert import to_core as world_to_core
+from irl_core import Demonstration, simulate
+
+
+def simulated_columns(world: World, told: DemonstrationIn) -> dict[str, Any]:
+    """Live the attempt again and return what is stored of it; raises ImpossibleDemonstration."""
+    attempt = simulate(world_to_core(world), told.actions, attempt_id=told.id, ending=told.ending, id=told.id)
+    return {
+        "id": told.id,
+        "world_id": world.id,
+        "states": attempt.states.tolist(),
+        "actions": attempt.actions.tolist(),
+        "rewards": attempt.rewards.tolist(),
+        "step_ms": told.step_ms,
+        "total": float(attempt.total),
+        "outcome": str(attempt.outcome),
+        "ending": str(attempt.ending),
+    }
+
+
+def to_core(row: DemonstrationRow) -> Demonstration:
+    """Read a stored demonstration."""
+    return Demonstration(
+        id=row.id,
+        states=np.array(row.states),
+        actions=np.array(row.actions),
+        rewards=np.array(row.rewards, dtype=np.float64),
+        total=row.total,
+        outcome=row.outcome,
+        ending=row.ending,
+    )

@@ -1,0 +1,71 @@
+"""The play page: the front door, and a world by its link."""
+
+from dataclasses import dataclass, field
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Query, Request
+from starlette.responses import RedirectResponse, Response
+
+from app.demonstrations import queries
+from app.demonstrations.schemas import DemonstrationOut
+from app.dependencies import DatabaseFromApp
+from app.pages import PathState, latest_world_id, path_state, render
+from app.visitors import VisitorOrNone
+from app.models import World
+from app.worlds.convert import generate, to_json
+from app.worlds.dependencies import WorldFromPath
+from app.worlds.queries import find
+from app.worlds.schemas import WorldQuery
+
+router = APIRouter(include_in_schema=False)
+
+
+@dataclass(frozen=True, slots=True)
+class PlayPage:
+    """Where a person plays a world."""
+
+    path: PathState = field(metadata={"help": "How far this visitor has come in this world."})
+    world: dict[str, Any] = field(metadata={"help": "The world being played, as the API has it."})
+    is_front_door: bool = field(metadata={"help": "The page is `/`: it greets, and says in a line what this is."})
+    data: dict[str, Any] = field(metadata={"help": "The page data: world, saved, demonstrations."})
+
+
+@router.get("/", response_model=None)
+def show_front_door(
+    request: Request, query: Annotated[WorldQuery, Query()], database: DatabaseFromApp, visitor_id: VisitorOrNone
+) -> Response:
+    """Lead a known visitor to their latest world; give everybody else a board to play at once.
+
+    A world that was drawn here is not stored before its first attempt is: looking leaves no trace.
+    """
+    if visitor_id is not None and not query.asks_for_a_world:
+        with database.read() as session:
+            latest = latest_world_id(session, visitor_id)
+        if latest is not None:
+            return RedirectResponse(f"/worlds/{latest}", 303)
+    return _play(request, database, visitor_id, generate(query.to_world_in()), is_front_door=True)
+
+
+@router.get("/worlds/{world_id}", response_model=None)
+def show_world(
+    request: Request, world: WorldFromPath, database: DatabaseFromApp, visitor_id: VisitorOrNone
+) -> Response:
+    """Show a stored world, with what this visitor has played in it."""
+    return _play(request, database, visitor_id, world, is_front_door=False)
+
+
+def _play(
+    request: Request, database: DatabaseFromApp, visitor_id: str | None, world: World, *, is_front_door: bool
+) -> Response:
+    with database.read() as session:
+        is_saved = find(session, world.id) is not None
+        demonstrations = demonstrations_json(queries.all_in_world(session, visitor_id, world.id))
+        path = path_state(session, visitor_id, world.id, "play") if is_saved else PathState()
+    data = {"world": to_json(world), "saved": is_saved, "demonstrations": demonstrations}
+    page = PlayPage(path=path, world=data["world"], is_front_door=is_front_door, data=data)
+    return render(request, "worlds/play.html", page)
+
+
+def demonstrations_json(rows: Any) -> list[dict[str, Any]]:  # noqa: ANN401 - rows of demonstrations
+    """Demonstrations as the API lists them, for a page's data."""
+    return [DemonstrationOut.of(row).model_dump(mode="json") for row in rows]

@@ -1,0 +1,71 @@
+"""What people can do with demonstrations: record one, discard it, take it back."""
+
+from typing import Any
+
+from sqlalchemy import insert
+from sqlalchemy.orm import Session
+
+from app.db import Database
+from app.demonstrations import convert, queries
+from app.demonstrations.schemas import DemonstrationIn
+from app.errors import Conflict, NotFound, Unprocessable
+from app.kit.clock import now
+from app.models import Demonstration, World
+from app.visitors import remember
+
+TOLD = ("world_id", "actions", "step_ms", "ending")
+"""What makes two tellings of an attempt the same; the rest follows from it."""
+
+
+def record(
+    database: Database, visitor_id: str, world: World, told: DemonstrationIn
+) -> tuple[Demonstration, bool]:
+    """Store an attempt once. Returns it, and whether it is new; raises Conflict if the id tells another story."""
+    if len(told.step_ms) != len(told.actions):
+        message = f"step_ms has {len(told.step_ms)} times for {len(told.actions)} actions; each step needs one."
+        raise Unprocessable(message, fields={"step_ms": message})
+    columns = convert.simulated_columns(world, told) | {"visitor_id": visitor_id}
+
+    def store(session: Session) -> tuple[Demonstration, bool]:
+        known = queries.find(session, told.id)
+        if known is not None:
+            _check_is_the_same(known, columns)
+            return known, False
+        remember(session, visitor_id)
+        columns.update(created_at=now(), discarded_at=None)
+        session.execute(insert(Demonstration.__table__), columns)  # Core: the ORM costs this path a factor of five
+        return Demonstration(**columns), True
+
+    return database.write(store)
+
+
+def _check_is_the_same(known: Demonstration, columns: dict[str, Any]) -> None:
+    is_same = known.visitor_id == columns["visitor_id"] and all(getattr(known, name) == columns[name] for name in TOLD)
+    if not is_same:
+        message = "Another attempt has this id already. Give every attempt an id of its own."
+        raise Conflict(message, fields={"id": message})
+
+
+def discard(database: Database, visitor_id: str | None, demonstration_id: str) -> Demonstration:
+    """Take a demonstration out of ranking and learning; it is kept and can come back."""
+    return _set_discarded(database, visitor_id, demonstration_id, discarded=True)
+
+
+def restore(database: Database, visitor_id: str | None, demonstration_id: str) -> Demonstration:
+    """Take a discarded demonstration back."""
+    return _set_discarded(database, visitor_id, demonstration_id, discarded=False)
+
+
+def _set_discarded(
+    database: Database, visitor_id: str | None, demonstration_id: str, *, discarded: bool
+) -> Demonstration:
+    def store(session: Session) -> Demonstration:
+        known = queries.find_theirs(session, visitor_id, demonstration_id)
+        if known is None:
+            message = "You have no such demonstration. It belongs to the browser in which it was played."
+            raise NotFound(message)
+        if (known.discarded_at is not None) != discarded:
+            known.discarded_at = now() if discarded else None
+        return known
+
+    return database.write(store)

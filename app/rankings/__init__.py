@@ -1,0 +1,1 @@
+"""Rankings: the orders that people confirmed, every version of them."""

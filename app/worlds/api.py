@@ -1,0 +1,29 @@
+"""Worlds as JSON."""
+
+from typing import Any
+
+from fastapi import APIRouter
+
+from app.dependencies import DatabaseFromApp
+from app.visitors import Visitor
+from app.worlds import service
+from app.worlds.convert import to_json
+from app.worlds.dependencies import WorldFromPath
+from app.worlds.schemas import WorldIn, WorldOut
+
+router = APIRouter(prefix="/api/v1", tags=["worlds"])
+
+
+@router.post("/worlds", status_code=201, response_model=WorldOut, summary="Make a world")
+def create_world(database: DatabaseFromApp, visitor_id: Visitor, body: WorldIn | None = None) -> Any:  # noqa: ANN401
+    """Generate a world and store it.
+
+    The id is made from the parameters: the same request with a seed gives the same world again, so a retry does no harm.
+    """
+    return to_json(service.create(database, visitor_id, body or WorldIn()))
+
+
+@router.get("/worlds/{world_id}", response_model=WorldOut, summary="Show a world")
+def show_world(world: WorldFromPath) -> Any:  # noqa: ANN401
+    """Show a world to anyone who has its link."""
+    return to_json(world)
