@@ -12,6 +12,15 @@ from irl_core.errors import (
     IrlError,
     MissingDemonstrations,
 )
+from irl_core.evaluation import (
+    Rollout,
+    expected_return,
+    expected_visits,
+    greedy_plan,
+    optimal_plan,
+    optimum,
+    rollouts,
+)
 from irl_core.gridworld import (
     GENERATOR_VERSION,
     draw_playable_world,
@@ -20,27 +29,61 @@ from irl_core.gridworld import (
     slip_direction,
     success_is_possible,
 )
+from irl_core.learners import (
+    LEARNERS,
+    Frame,
+    Learner,
+    LearningProblem,
+    LearningResult,
+    LearningState,
+    Outcome,
+    Settings,
+    learn,
+)
+from irl_core.planning import HardPlan, SoftPlan, hard_plan, soft_plan, spectral_radius, visitation
 from irl_core.types import Demonstration, Ranking, World
 from irl_core.weights import feature_counts, rank_weights, uniform_weights
 
 __all__ = [
     "GENERATOR_VERSION",
+    "LEARNERS",
     "Demonstration",
+    "Frame",
+    "HardPlan",
     "ImpossibleDemonstration",
     "InvalidFile",
     "InvalidRanking",
     "InvalidSettings",
     "InvalidWorld",
     "IrlError",
+    "Learner",
+    "LearningProblem",
+    "LearningResult",
+    "LearningState",
     "MissingDemonstrations",
+    "Outcome",
     "Ranking",
+    "Rollout",
+    "Settings",
+    "SoftPlan",
     "World",
     "draw_playable_world",
+    "expected_return",
+    "expected_visits",
     "feature_counts",
     "generate_world",
+    "greedy_plan",
+    "hard_plan",
+    "learn",
+    "optimal_plan",
+    "optimum",
     "rank_weights",
+    "rollouts",
     "simulate",
     "slip_direction",
+    "soft_plan",
+    "spectral_radius",
     "success_is_possible",
     "uniform_weights",
+    "visitation",
 ]

@@ -8,7 +8,7 @@ import numpy as np
 MAX_ID_LENGTH = 200
 
 
-class Refused(ValueError):  # noqa: N818 - a sentence on its way to becoming an IrlError
+class Refused(ValueError):
     """What is wrong with a value, in words; the caller adds which value it was."""
 
 
@@ -58,7 +58,7 @@ def shown(value: object) -> str:
     if value is not None and not isinstance(value, str | bool | SupportsFloat):
         return f"a {type(value).__name__}"
     text = ascii(value)
-    return text if len(text) <= 60 else text[:57] + "..."  # noqa: PLR2004
+    return text if len(text) <= 60 else text[:57] + "..."
 
 
 def _range(minimum: float, maximum: float, *, above: bool) -> str:

@@ -95,7 +95,7 @@ def simulate(
     *,
     attempt_id: str = "",
     ending: str | None = None,
-    id: str | None = None,
+    id: str | None = None,  # noqa: A002 - the field it sets
 ) -> Demonstration:
     """Play the actions and tell what happened; raises ImpossibleDemonstration where they cannot have been played.
 
@@ -126,8 +126,8 @@ def simulate(
 def slip_direction(attempt_id: str, step: int, intended: int, slip: float) -> int:
     """The direction a step really takes: FNV-1a over "attempt_id:step", murmur3's finaliser, then the slip law.
 
-    u = h / 2³² is uniform on [0, 1): from `slip` upward the step goes as intended, below it each of the three others has
-    a third. static/js/board/moves.js is its twin; tests/core/slip_vectors.json holds both to the same table.
+    u = h / 2³² is uniform on [0, 1): from `slip` upward the step goes as intended, below it each of the three others
+    has a third. static/js/board/moves.js is its twin; tests/core/slip_vectors.json holds both to the same table.
     """
     if slip <= 0.0:
         return intended

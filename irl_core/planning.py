@@ -152,7 +152,7 @@ def spectral_radius(world: World, reward: Reward) -> float:
         grown = np.where(inside, reward + _log_sum_exp(log_v[ahead]), -np.inf)
         growth = grown[inside] - log_v[inside]
         low, high = float(growth.min()), float(growth.max())
-        if high - low < 1e-6:  # noqa: PLR2004 - six digits of ρ are plenty for "is it below 1?"
+        if high - low < 1e-6:
             break
         log_v = grown - grown.max()
     return float(np.exp(min((low + high) / 2, 700.0)))
@@ -171,7 +171,7 @@ def _check(world: World, reward: Reward, horizon: int | None) -> int:
 
 
 def _log_sum_exp(values: Matrix) -> Vector:
-    """log Σ_d e^{x_d} down the columns, shape (4, S) → (S,); −∞ where every x is −∞."""
+    """Log Σ_d e^{x_d} down the columns, shape (4, S) → (S,); −∞ where every x is −∞."""
     top = values.max(axis=0)
     top[top == -np.inf] = 0.0
     total = np.exp(values - top).sum(axis=0)
@@ -181,7 +181,7 @@ def _log_sum_exp(values: Matrix) -> Vector:
 
 
 def _direction_laws(world: World, step_log_z: Matrix) -> Iterator[StepPolicies]:
-    """q(d | s) with log Z of the step after, in blocks of shape (steps, 4, S); 0 at goals and where nothing is ahead."""
+    """q(d | s) from log Z of the step after, in blocks (steps, 4, S); 0 at goals and where nothing is ahead."""
     ahead = np.ascontiguousarray(world.next_states.T)
     goals = list(world.goals)
     n_rows = max(1, _BLOCK // ahead.size)

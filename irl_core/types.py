@@ -32,8 +32,8 @@ class World:
     """A grid and its rewards. A step pays the reward of the square it reaches; a goal pays once and ends the attempt.
 
     `rewards` has shape (rows, cols); states are numbered row by row. `slip` is the probability that a step goes in one
-    of the three other directions instead. `horizon`, the longest attempt, defaults to min(2·rows·cols, 8·(rows + cols)),
-    never less than twice the shortest path. `seed` and `red_probability` say where the world came from.
+    of the three other directions instead. `horizon`, the longest attempt, is min(2·rows·cols, 8·(rows + cols)) unless
+    given, never less than twice the shortest path. `seed` and `red_probability` say where the world came from.
     """
 
     rows: int
@@ -181,7 +181,7 @@ class World:
         if (steps < 0).all():
             raise InvalidWorld("No goal can be reached from the start: the walls close the way.", field="walls")
         shortest = int(steps[steps >= 0].min())
-        if self.horizon == 0:
+        if not self.horizon:  # 0, or None from a caller who says it in words
             self._set(horizon=grid.default_horizon(self.rows, self.cols, shortest=shortest))
         self._set(horizon=_whole("horizon", self.horizon, minimum=shortest, maximum=2 * self.n_states))
 
@@ -256,7 +256,7 @@ class Ranking:
     @property
     def ids(self) -> tuple[str, ...]:
         """Every ranked demonstration, in display order."""
-        return tuple(id for group in self.groups for id in group)
+        return tuple(id_ for group in self.groups for id_ in group)
 
 
 def check_groups(groups: Iterable[Iterable[str]]) -> tuple[tuple[str, ...], ...]:
@@ -268,16 +268,16 @@ def check_groups(groups: Iterable[Iterable[str]]) -> tuple[tuple[str, ...], ...]
     for group in checked:
         if not group:
             raise InvalidRanking("A group in the order is empty; leave it out.", field="order")
-        for id in group:
-            if not isinstance(id, str):
-                raise InvalidRanking(f"A demonstration's id is a text, not {shown(id)}.", field="order")
-            if id in seen:
-                raise InvalidRanking(f"Demonstration {shown(id)} is in the order twice.", field="order")
-            seen.add(id)
+        for id_ in group:
+            if not isinstance(id_, str):
+                raise InvalidRanking(f"A demonstration's id is a text, not {shown(id_)}.", field="order")
+            if id_ in seen:
+                raise InvalidRanking(f"Demonstration {shown(id_)} is in the order twice.", field="order")
+            seen.add(id_)
     return checked
 
 
-def _rewards(values: Any, *, rows: int, cols: int) -> Matrix:
+def _rewards(values: Any, *, rows: int, cols: int) -> Matrix:  # noqa: ANN401 - outside data
     """Rewards as a read-only copy; every number finite and at most a million in size."""
     shape_wanted = f"rewards must be {rows} rows of {cols} numbers"
     if isinstance(values, np.ndarray):

@@ -1,0 +1,69 @@
+"""The learners by name, and `learn`, which runs one of them to its end."""
+
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+
+from irl_core.checks import shown
+from irl_core.errors import InvalidSettings
+from irl_core.learners.base import Frame, Learner, LearningResult, LearningState, Outcome
+from irl_core.learners.irlf import Irlf
+from irl_core.learners.irlfr import Irlfr
+from irl_core.learners.irlr import Irlr
+from irl_core.learners.meirl import Meirl
+from irl_core.learners.problem import LearningProblem
+from irl_core.learners.settings import Settings
+
+LEARNERS: Mapping[str, Learner] = MappingProxyType(
+    {learner.name: learner for learner in (Meirl(), Irlr(), Irlf(), Irlfr())}
+)
+"""The learners of the paper, in its order."""
+
+
+def learn(
+    learner: str | Learner,
+    problem: LearningProblem,
+    *,
+    on_frame: Callable[[Frame], None] | None = None,
+    frame_every: int = 10,
+    should_stop: Callable[[], bool] = lambda: False,
+) -> LearningResult:
+    """Run a learner to its end, or until `should_stop`, which is asked every `frame_every` iterations.
+
+    `on_frame` is shown the start, every `frame_every`-th iteration and the end.
+    """
+    if isinstance(learner, str):
+        learner = _named(learner)
+    if frame_every < 1:
+        raise InvalidSettings(f"frame_every must be at least 1, not {frame_every}.", field="frame_every")
+    state = learner.start(problem)
+    _show(learner, problem, state, on_frame)
+    while not state.is_finished and not should_stop():
+        state = learner.advance(problem, state, iterations=frame_every)
+        _show(learner, problem, state, on_frame)
+    return learner.result(problem, state)
+
+
+def _named(name: str) -> Learner:
+    if name not in LEARNERS:
+        raise InvalidSettings(f"There is no learner {shown(name)}; there are {', '.join(LEARNERS)}.", field="learners")
+    return LEARNERS[name]
+
+
+def _show(
+    learner: Learner, problem: LearningProblem, state: LearningState, on_frame: Callable[[Frame], None] | None
+) -> None:
+    if on_frame is not None:
+        on_frame(learner.frame(problem, state))
+
+
+__all__ = [
+    "LEARNERS",
+    "Frame",
+    "Learner",
+    "LearningProblem",
+    "LearningResult",
+    "LearningState",
+    "Outcome",
+    "Settings",
+    "learn",
+]

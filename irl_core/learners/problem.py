@@ -1,0 +1,177 @@
+"""What a learner learns from: a world, the demonstrations in it, their order, and the settings. Checked once, here."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Protocol, Self
+
+import numpy as np
+
+from irl_core.checks import is_integer, shown
+from irl_core.errors import ImpossibleDemonstration, InvalidRanking, InvalidSettings, MissingDemonstrations
+from irl_core.learners.settings import Settings
+from irl_core.types import OUTCOMES, Demonstration, DemonstrationOutcome, Ranking, World
+from irl_core.weights import rank_weights, uniform_weights
+
+
+class Needs(Protocol):
+    """The part of a learner that says what it learns from."""
+
+    @property
+    def title(self) -> str: ...
+    @property
+    def uses_ranking(self) -> bool: ...
+    @property
+    def uses_failures(self) -> bool: ...
+
+
+@dataclass(frozen=True, eq=False)
+class LearningProblem:
+    """A snapshot that learners start from. Make one with `LearningProblem.build`.
+
+    `failures` are the usable ones: unless the settings include the unfinished, those that ended at a goal;
+    `n_left_out` counts the others. `orders` holds the groups of each ranked outcome.
+    """
+
+    world: World
+    settings: Settings
+    seed: int
+    successes: tuple[Demonstration, ...]
+    failures: tuple[Demonstration, ...]
+    orders: Mapping[DemonstrationOutcome, tuple[tuple[str, ...], ...]]
+    n_left_out: int
+
+    @classmethod
+    def build(
+        cls,
+        world: World,
+        demonstrations: Iterable[Demonstration],
+        rankings: Iterable[Ranking] = (),
+        settings: Settings | None = None,
+        seed: int = 0,
+    ) -> Self:
+        """Check that everything belongs together; what each learner lacks, `missing` tells."""
+        settings = settings or Settings()
+        given = tuple(demonstrations)
+        for demonstration in given:
+            _check_demonstration(world, demonstration)
+        _check_ids(given)
+        failures = tuple(one for one in given if one.outcome == "failure")
+        usable = tuple(one for one in failures if one.reached_goal or settings.unfinished_failures == "include")
+        if not is_integer(seed) or seed < 0:
+            raise InvalidSettings(f"seed must be a whole number from 0 on, not {shown(seed)}.", field="seed")
+        return cls(
+            world=world,
+            settings=settings,
+            seed=seed,
+            successes=tuple(one for one in given if one.outcome == "success"),
+            failures=usable,
+            orders=_orders(given, rankings),
+            n_left_out=len(failures) - len(usable),
+        )
+
+    def missing(self, learner: Needs) -> str | None:
+        """What this learner still needs, in words for a person, or None if it can start."""
+        if not self.successes:
+            return f"{learner.title} needs at least one success: an attempt that reaches the goal and totals 0 or more."
+        if learner.uses_failures and not self.failures:
+            return self._no_failure(learner)
+        if not learner.uses_ranking:
+            return None
+        unplaced = self._unplaced("success", self.successes)
+        if unplaced:
+            return f"{learner.title} needs your successes in order: {unplaced}."
+        unplaced = self._unplaced("failure", self.failures)
+        if learner.uses_failures and unplaced:
+            return f"{learner.title} needs your failures in order: {unplaced}."
+        return None
+
+    def require(self, learner: Needs) -> None:
+        """Raise MissingDemonstrations unless this learner can start."""
+        sentence = self.missing(learner)
+        if sentence is not None:
+            raise MissingDemonstrations(sentence, field="learners")
+
+    def success_weights(self, *, ranked: bool) -> dict[str, float]:
+        """θ of each success; they sum to 1."""
+        return self._weights("success", self.successes, ranked=ranked)
+
+    def failure_weights(self, *, ranked: bool) -> dict[str, float]:
+        """θ of each usable failure, ranked among those alone; they sum to 1."""
+        return self._weights("failure", self.failures, ranked=ranked)
+
+    def _weights(
+        self, outcome: DemonstrationOutcome, kept: tuple[Demonstration, ...], *, ranked: bool
+    ) -> dict[str, float]:
+        ids = [one.id for one in kept]
+        if not ranked or len(ids) == 1:
+            return uniform_weights(ids)
+        groups = [[id_ for id_ in group if id_ in ids] for group in self.orders[outcome]]
+        return rank_weights([group for group in groups if group])
+
+    def _unplaced(self, outcome: DemonstrationOutcome, kept: tuple[Demonstration, ...]) -> str | None:
+        placed = {id_ for group in self.orders.get(outcome, ()) for id_ in group}
+        n_unplaced = sum(one.id not in placed for one in kept)
+        if len(kept) < 2 or n_unplaced == 0:
+            return None
+        if n_unplaced == len(kept):
+            return f"none of the {len(kept)} has a place yet"
+        return f"{n_unplaced} of the {len(kept)} {'has' if n_unplaced == 1 else 'have'} no place yet"
+
+    def _no_failure(self, learner: Needs) -> str:
+        if self.n_left_out == 0:
+            return (
+                f"{learner.title} needs at least one failure: an attempt that reaches the goal and totals less than 0."
+            )
+        never = "One failure" if self.n_left_out == 1 else f"{self.n_left_out} failures"
+        return (
+            f"{learner.title} needs a failure that reaches the goal and totals less than 0. {never} ended elsewhere; to"
+            ' learn from such too, set "unfinished_failures" to "include".'
+        )
+
+
+def _orders(
+    given: tuple[Demonstration, ...], rankings: Iterable[Ranking]
+) -> dict[DemonstrationOutcome, tuple[tuple[str, ...], ...]]:
+    by_outcome = {outcome: {one.id for one in given if one.outcome == outcome} for outcome in OUTCOMES}
+    orders: dict[DemonstrationOutcome, tuple[tuple[str, ...], ...]] = {}
+    for ranking in rankings:
+        if ranking.outcome in orders:
+            raise InvalidRanking(f"There are two rankings of {ranking.outcome} demonstrations.", field="rankings")
+        for id_ in ranking.ids:
+            if id_ not in by_outcome[ranking.outcome]:
+                raise InvalidRanking(
+                    f"The ranking of {ranking.outcome} demonstrations names {shown(id_)}, which is not one of them.",
+                    field="rankings",
+                )
+        orders[ranking.outcome] = ranking.groups
+    return orders
+
+
+def _check_ids(given: tuple[Demonstration, ...]) -> None:
+    seen: set[str] = set()
+    for one in given:
+        if one.id in seen:
+            raise ImpossibleDemonstration(f"demonstration {shown(one.id)} is given twice.", field="demonstrations")
+        seen.add(one.id)
+
+
+def _check_demonstration(world: World, one: Demonstration) -> None:
+    """Refuse what cannot have been played in this world; `simulate` made it, but perhaps in another one."""
+    states, actions = one.states, one.actions
+    if len(states) != len(actions) + 1 or len(one.rewards) != len(actions) or not 0 < len(actions) <= world.horizon:
+        _refuse(one, f"it needs 1 to {world.horizon} steps, one more state than actions, one reward a step")
+    if states.min() < 0 or states.max() >= world.n_states or states[0] != world.start:
+        _refuse(one, f"it must start in square {world.start} and stay below square {world.n_states}")
+    ahead = world.next_states[states[:-1]]
+    moved = states[1:]
+    fits = (ahead == moved[:, None]).any(axis=1) if world.slip else ahead[np.arange(len(actions)), actions] == moved
+    fits &= ~np.isin(states[:-1], world.goals) & (world.reward[moved] == one.rewards)
+    if not fits.all():
+        _refuse(one, f"its step {int(fits.argmin())} does not exist there")
+    arrived = bool(np.isin(states[-1], world.goals))
+    if one.reached_goal != arrived or (one.outcome == "success") != (arrived and one.total >= 0.0):
+        _refuse(one, f"it says {one.outcome} and {one.ending}, which is not how it ends")
+
+
+def _refuse(one: Demonstration, why: str) -> None:
+    raise ImpossibleDemonstration(f"demonstration {shown(one.id)} is not of this world: {why}.", field="demonstrations")

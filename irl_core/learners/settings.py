@@ -1,0 +1,109 @@
+"""The settings of the four learners: the paper's symbols, their defaults and ranges, and what they mean."""
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, fields
+from typing import Any, Literal, Self
+
+from irl_core.checks import Refused, real_number, shown, whole_number
+from irl_core.errors import InvalidSettings
+
+
+def _number(default: float, *, symbol: str, minimum: float, maximum: float, help: str) -> Any:  # noqa: A002, ANN401
+    about = {"symbol": symbol, "minimum": minimum, "maximum": maximum, "choices": None, "help": help}
+    return field(default=default, metadata=about)
+
+
+def _choice(default: str, *, symbol: str, choices: tuple[str, ...], help: str) -> Any:  # noqa: A002, ANN401
+    about = {"symbol": symbol, "minimum": None, "maximum": None, "choices": list(choices), "help": help}
+    return field(default=default, metadata=about)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Settings:
+    """How a learner descends. Wrong values raise InvalidSettings, which names the field."""
+
+    learning_rate: float = _number(
+        0.1, symbol="α", minimum=1e-9, maximum=10.0, help="How far each iteration moves the learned reward."
+    )
+    iterations: int = _number(
+        500, symbol="n", minimum=1, maximum=100_000, help="The most iterations a learner may take."
+    )
+    tolerance: float = _number(
+        1e-4,
+        symbol="ε",
+        minimum=1e-12,
+        maximum=1.0,
+        help="The learner has converged when no square's expected visits differ from the attempts' by this much.",
+    )
+    lambda_start: float = _number(
+        10.0, symbol="λ₀", minimum=1e-9, maximum=1e9, help="How little the failures count at first: more is less."
+    )
+    lambda_decay: float = _number(
+        0.95, symbol="α_λ", minimum=1e-9, maximum=1.0, help="λ is multiplied by this after each iteration."
+    )
+    lambda_min: float = _number(
+        5.0,
+        symbol="λ_min",
+        minimum=1e-9,
+        maximum=1e9,
+        help="λ falls no lower. Small values let the failures count for much, but below about 2 learning oscillates.",
+    )
+    initial_weights: Literal["zero", "uniform"] = _choice(
+        "zero",
+        symbol="w₀",
+        choices=("zero", "uniform"),
+        help="The reward before the first iteration: 0 everywhere, or drawn from U[−1, 1] with the run's seed.",
+    )
+    unfinished_failures: Literal["leave_out", "include"] = _choice(
+        "leave_out",
+        symbol="F",
+        choices=("leave_out", "include"),
+        help="Whether to learn from failures that never reached the goal. The model is about paths that do.",
+    )
+
+    def __post_init__(self) -> None:
+        for one in fields(self):
+            object.__setattr__(self, one.name, _checked(one.name, getattr(self, one.name), one.metadata))
+        if self.lambda_min > self.lambda_start:
+            raise InvalidSettings(
+                f"lambda_min must be at most lambda_start ({self.lambda_start:g}), not {self.lambda_min:g}.",
+                field="lambda_min",
+            )
+
+    @classmethod
+    def from_json(cls, data: Mapping[str, Any]) -> Self:
+        """Settings from a mapping of some of them; an unknown name is refused."""
+        known = [one.name for one in fields(cls)]
+        for name in data:
+            if name not in known:
+                raise InvalidSettings(
+                    f"There is no setting {shown(name)}; there are {', '.join(known)}.", field="settings"
+                )
+        return cls(**data)
+
+    def to_json(self) -> dict[str, Any]:
+        """Every setting by its name."""
+        return asdict(self)
+
+    @classmethod
+    def describe(cls) -> list[dict[str, Any]]:
+        """What a page needs to ask for each: name, symbol, default, minimum, maximum, choices, help."""
+        return [{"name": one.name, "default": one.default, **one.metadata} for one in fields(cls)]
+
+
+def _checked(name: str, value: object, about: Mapping[str, Any]) -> object:
+    try:
+        if about["choices"] is not None:
+            return _one_of(value, about["choices"])
+        if name == "iterations":
+            return whole_number(value, minimum=about["minimum"], maximum=about["maximum"])
+        return real_number(value, minimum=about["minimum"], maximum=about["maximum"])
+    except Refused as refused:
+        raise InvalidSettings(f"{name} {refused}.", field=name) from None
+
+
+def _one_of(value: object, choices: list[str]) -> str:
+    for choice in choices:
+        if isinstance(value, str) and value == choice:
+            return choice
+    raise Refused(f"must be {' or '.join(choices)}, not {shown(value)}")
