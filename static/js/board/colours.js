@@ -83,7 +83,8 @@ export function shade(scale, arm, depth) {
 
 /** Arm and depth of a square of the world itself. @param {string} colour @param {number} reward @returns {{arm: "red" | "blue", depth: number}} */
 export function worldDepth(colour, reward) {
-  if (colour === "red") return { arm: "red", depth: PALEST_RED + (1 - PALEST_RED) * Math.min(1, Math.abs(reward) / WORST_RED) };
+  if (colour === "red")
+    return { arm: "red", depth: PALEST_RED + (1 - PALEST_RED) * Math.min(1, Math.abs(reward) / WORST_RED) };
   return { arm: "blue", depth: PALEST_BLUE + (1 - PALEST_BLUE) * Math.min(1, Math.abs(reward)) };
 }
 

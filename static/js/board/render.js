@@ -159,7 +159,8 @@ function drawStart({ context, geometry, world, look, theme }) {
 function drawFlag({ context, geometry, world, theme, view, look }, state) {
   const { cell, ratio } = geometry;
   const [row, col] = placeOf(world, state);
-  const at = (/** @type {number} */ x, /** @type {number} */ y) => /** @type {const} */ ([(col + x) * cell, (row + y) * cell]);
+  const at = (/** @type {number} */ x, /** @type {number} */ y) =>
+    /** @type {const} */ ([(col + x) * cell, (row + y) * cell]);
   const gold = `rgb(${theme.goal.join(" ")})`;
   const ink = view.values && !look.isDark[state] ? theme.inkLight : theme.inkDark;
   if (view.values) {
@@ -264,7 +265,10 @@ function drawLine(context, points, { colour, halo, width, opacity }) {
 /** The older a step, the paler; never wholly gone. @param {CanvasRenderingContext2D} context @param {(readonly [number, number])[]} points @param {Stroke} stroke */
 function drawFadingLine(context, points, { colour, halo, width, opacity }) {
   const last = points.length - 1;
-  for (const [paint, size] of /** @type {const} */ ([[halo, 1.8], [colour, 1]])) {
+  for (const [paint, size] of /** @type {const} */ ([
+    [halo, 1.8],
+    [colour, 1],
+  ])) {
     context.strokeStyle = paint;
     context.lineWidth = width * size;
     for (let i = 1; i <= last; i++) {
@@ -299,7 +303,8 @@ function drawArrows({ context, geometry, world, view, look, theme }) {
       const [tipX, tipY] = [x + dx * length, y + dy * length];
       lines[ink]?.moveTo(x, y);
       lines[ink]?.lineTo(tipX, tipY);
-      if (cell >= SMALLEST_HEADS * ratio) arrowHead(heads[ink], { tipX, tipY, dx, dy, size: Math.min(cell * 0.11, length * 0.6) });
+      if (cell >= SMALLEST_HEADS * ratio)
+        arrowHead(heads[ink], { tipX, tipY, dx, dy, size: Math.min(cell * 0.11, length * 0.6) });
     }
   }
   context.lineCap = "round";
@@ -332,7 +337,12 @@ function drawFigures({ context, geometry, world, view, look, theme }) {
     const isBelow = view.arrows !== null || world.goals.includes(state);
     const text = number(value, Math.abs(value) >= 10 ? 0 : 1);
     context.fillStyle = look.isDark[state] ? theme.inkDark : theme.inkLight;
-    plate(context, look, state, { x: (col + 0.5) * cell, y: (row + (isBelow ? 0.84 : 0.5)) * cell, width: context.measureText(text).width, size });
+    plate(context, look, state, {
+      x: (col + 0.5) * cell,
+      y: (row + (isBelow ? 0.84 : 0.5)) * cell,
+      width: context.measureText(text).width,
+      size,
+    });
     context.fillText(text, (col + 0.5) * cell, (row + (isBelow ? 0.84 : 0.52)) * cell);
   }
 }

@@ -81,8 +81,10 @@ export class IrlBoard extends HTMLElement {
   set view(view) {
     const [before, after] = [this.#view, { ...EMPTY_VIEW, ...view }];
     this.#view = after;
-    if (before.values !== after.values || before.scale !== after.scale || before.unknown !== after.unknown) this.#squaresAreOld = true;
-    if (this.#squaresAreOld || before.numbers !== after.numbers || before.arrows !== after.arrows) this.#inkIsOld = true;
+    if (before.values !== after.values || before.scale !== after.scale || before.unknown !== after.unknown)
+      this.#squaresAreOld = true;
+    if (this.#squaresAreOld || before.numbers !== after.numbers || before.arrows !== after.arrows)
+      this.#inkIsOld = true;
     if (before.visits !== after.visits || before.paths !== after.paths) this.#inkIsOld = true;
     this.#schedule();
   }
@@ -111,7 +113,10 @@ export class IrlBoard extends HTMLElement {
     if (!token || prefersStill()) return;
     const [dy, dx] = DELTAS[direction] ?? [0, 0];
     const lean = `translate(${dx * 22}%, ${dy * 22}%)`;
-    token.animate([{ transform: "none" }, { transform: lean }, { transform: "none" }], { duration: 140, easing: "ease-out" });
+    token.animate([{ transform: "none" }, { transform: lean }, { transform: "none" }], {
+      duration: 140,
+      easing: "ease-out",
+    });
   }
 
   /** The first agent hops: quiet joy. */
@@ -178,7 +183,14 @@ export class IrlBoard extends HTMLElement {
   /** @param {HTMLCanvasElement} canvas @param {World} world @param {View} view @param {import("#js/board/render.js").Look} look */
   #scene(canvas, world, view, look) {
     const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
-    return { context, world, view, look, theme: theme(), geometry: { cell: this.#cell * this.#ratio, ratio: this.#ratio } };
+    return {
+      context,
+      world,
+      view,
+      look,
+      theme: theme(),
+      geometry: { cell: this.#cell * this.#ratio, ratio: this.#ratio },
+    };
   }
 
   #resize() {
@@ -187,7 +199,8 @@ export class IrlBoard extends HTMLElement {
     const [width, height, ratio] = [this.clientWidth, this.clientHeight, window.devicePixelRatio || 1];
     const exact = Math.min((width * ratio) / world.cols, (height * ratio) / world.rows);
     const cell = (exact >= SMALLEST_WHOLE_CELL ? Math.floor(exact) : exact) / ratio;
-    const isSame = cell === this.#cell && ratio === this.#ratio && this.#stage.dataset.size === `${world.cols}×${world.rows}`;
+    const isSame =
+      cell === this.#cell && ratio === this.#ratio && this.#stage.dataset.size === `${world.cols}×${world.rows}`;
     if (isSame || cell <= 0) return;
     [this.#cell, this.#ratio] = [cell, ratio];
     this.#stage.dataset.size = `${world.cols}×${world.rows}`;
@@ -272,7 +285,8 @@ function makeAgent() {
 /** @param {string} className @param {number} x @param {number} y @param {number} r */
 function circle(className, x, y, r) {
   const shape = document.createElementNS(SVG, "circle");
-  for (const [name, value] of Object.entries({ class: className, cx: x, cy: y, r })) shape.setAttribute(name, String(value));
+  for (const [name, value] of Object.entries({ class: className, cx: x, cy: y, r }))
+    shape.setAttribute(name, String(value));
   return shape;
 }
 

@@ -1,8 +1,8 @@
 /** Who may listen to the keyboard just now. */
 
-const TYPING = "input:not([type=button], [type=checkbox], [type=radio], [type=range]), textarea, select, [contenteditable]";
+const TYPING = "input:not([type=button], [type=checkbox]), textarea, select, [contenteditable]";
 
-/** True when a key belongs to something else: a text field, an open dialog or menu, a browser shortcut. @param {KeyboardEvent} event */
+/** True when a key belongs to something else: a field, an open dialog or menu, a browser shortcut. @param {KeyboardEvent} event */
 export function isTaken(event) {
   if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey || event.isComposing) return true;
   const target = event.target instanceof Element ? event.target : null;
