@@ -8,7 +8,7 @@ from app.db import Database
 
 
 async def get_database(request: Request) -> Database:
-    """The database that the lifespan opened. (`async`, so that it costs no hop to a thread.)"""
+    """Return the database that the lifespan opened; `async`, so that it costs no hop to a thread."""
     database: Database = request.app.state.database
     return database
 

@@ -10,7 +10,8 @@ from typing import Any
 
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
-from sqlalchemy.exc import OperationalError, TimeoutError as PoolTimeout
+from sqlalchemy.exc import OperationalError
+from sqlalchemy.exc import TimeoutError as PoolTimeout
 from starlette.exceptions import HTTPException
 from starlette.responses import HTMLResponse, Response
 
@@ -40,7 +41,14 @@ def add_error_handlers(app: FastAPI) -> None:
 
     @app.exception_handler(AppError)
     def refuse(request: Request, error: AppError) -> Response:
-        return answer(request, error.status, error.error_code, error.message, error.fields, error.headers)
+        return answer(
+            request,
+            status=error.status,
+            code=error.error_code,
+            message=error.message,
+            fields=error.fields,
+            headers=error.headers,
+        )
 
     @app.exception_handler(IrlError)
     def refuse_by_science(request: Request, error: IrlError) -> Response:
@@ -55,7 +63,8 @@ def add_error_handlers(app: FastAPI) -> None:
     def refuse_by_framework(request: Request, error: HTTPException) -> Response:
         status = HTTPStatus(error.status_code)
         code = status.phrase.lower().replace(" ", "_").replace("-", "_")
-        return answer(request, status, code, _FRAMEWORK_SENTENCES.get(status, f"{status.phrase}."), {}, error.headers)
+        sentence = _FRAMEWORK_SENTENCES.get(status, f"{status.phrase}.")
+        return answer(request, status=status, code=code, message=sentence, fields={}, headers=error.headers)
 
     @app.exception_handler(OperationalError)
     @app.exception_handler(PoolTimeout)
@@ -72,8 +81,16 @@ _FRAMEWORK_SENTENCES = {
 }
 
 
+_TITLES = {
+    HTTPStatus.NOT_FOUND: "Nothing here",
+    HTTPStatus.UNPROCESSABLE_ENTITY: "That cannot be",
+    HTTPStatus.SERVICE_UNAVAILABLE: "One moment, please",
+}
+
+
 def answer(
     request: Request,
+    *,
     status: int,
     code: str,
     message: str,
@@ -84,7 +101,9 @@ def answer(
     if request.url.path.startswith(JSON_PATHS):
         body = error_json(code, message, fields)
         return Response(body, status, dict(headers or {}), media_type="application/json")
-    page = ErrorPage(status=int(status), title=HTTPStatus(status).phrase, message=message)
+    page = ErrorPage(
+        status=int(status), title=_TITLES.get(HTTPStatus(status), HTTPStatus(status).phrase), message=message
+    )
     response = _render(request, page)
     response.headers.update(headers or {})
     return response

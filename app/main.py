@@ -44,7 +44,7 @@ PAGE_ROUTERS: tuple[APIRouter, ...] = (
 )
 
 N_THREADS = 16
-"""For routes that wait on the database: more would only queue at its one writer (40 threads: six times the p99 of 4)."""
+"""For routes that wait on the database: more would only queue at its one writer (40 had six times the p99 of 4)."""
 
 
 def create_app(settings: Settings | None = None) -> FastAPI:

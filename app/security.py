@@ -1,4 +1,4 @@
-"""What surrounds every request: headers, the body's size and form, requests of other sites. Pure ASGI, so streams pass.
+"""What surrounds every request: headers, the body's size and form, other sites. Pure ASGI, so streams pass.
 
 Outermost first: SecurityHeaders → VisitorCookie (visitors.py) → CrossSiteGuard → JsonBodies → UnexpectedErrors → routes.
 """
@@ -20,19 +20,17 @@ logger = logging.getLogger(__name__)
 SAFE_METHODS = frozenset({"GET", "HEAD", "OPTIONS"})
 API_PREFIX = "/api/"
 
-CONTENT_SECURITY_POLICY = "; ".join(
-    (
-        "default-src 'none'",
-        "script-src 'nonce-{nonce}' 'self'",
-        "style-src 'self' 'nonce-{nonce}'",
-        "img-src 'self' data: blob:",
-        "connect-src 'self'",
-        "font-src 'self'",
-        "manifest-src 'self'",
-        "base-uri 'none'",
-        "form-action 'self'",
-        "frame-ancestors 'none'",
-    )
+CONTENT_SECURITY_POLICY = (
+    "default-src 'none'; "
+    "script-src 'nonce-{nonce}' 'self'; "
+    "style-src 'self' 'nonce-{nonce}'; "
+    "img-src 'self' data: blob:; "
+    "connect-src 'self'; "
+    "font-src 'self'; "
+    "manifest-src 'self'; "
+    "base-uri 'none'; "
+    "form-action 'self'; "
+    "frame-ancestors 'none'"
 )
 FIXED_HEADERS = {
     "X-Content-Type-Options": "nosniff",
@@ -157,7 +155,7 @@ class JsonBodies:
         return TooLarge(f"The body is larger than {self.max_body_bytes:,} bytes, the most this server accepts.")
 
 
-class _Disconnected(Exception):  # noqa: N818 - not an error: the client has left
+class _Disconnected(Exception):
     """The client left before its body was complete."""
 
 

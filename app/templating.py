@@ -1,9 +1,9 @@
 """Pages from templates: the Jinja environment, where static files lie, and what every template can call.
 
-    asset("css/base.css")   the URL of a static file, with its version, so that browsers may keep it
-    import_map()            the names of our own and the third-party modules, for <script type="importmap">
-    value | page_data       JSON that is safe inside <script type="application/json">
-    csp_nonce               allows an inline script of this one answer
+- `asset("css/base.css")`: the URL of a static file, with its version, so that browsers may keep it
+- `import_map()`: the names of our own and the third-party modules, for `<script type="importmap">`
+- `value | page_data`: JSON that is safe inside `<script type="application/json">`
+- `csp_nonce`: allows an inline script of this one answer
 """
 
 import dataclasses

@@ -72,7 +72,7 @@ class VisitorCookie:
             return
 
         async def send_with_cookie(message: Message) -> None:
-            if message["type"] == "http.response.start" and message["status"] < 400:  # noqa: PLR2004 - succeeded
+            if message["type"] == "http.response.start" and message["status"] < 400:
                 visitor_id = scope.get("state", {}).get("new_visitor")
                 if visitor_id is not None:
                     MutableHeaders(scope=message).append("Set-Cookie", self._cookie(visitor_id))

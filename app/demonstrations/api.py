@@ -24,8 +24,8 @@ def record_demonstration(
 ) -> DemonstrationOut:
     """Live the attempt again on the server and store it, once for each id.
 
-    The answer comes when the attempt is on the disk. Sending it again does no harm (200); another attempt under the same
-    id is refused (409), as is one that cannot have happened (422, naming the step).
+    The answer comes when the attempt is on the disk. Sending it again does no harm (200); another attempt under the
+    same id is refused (409), as is one that cannot have happened (422, naming the step).
     """
     demonstration, is_new = service.record(database, visitor_id, world, body)
     if not is_new:

@@ -6,17 +6,16 @@ import numpy as np
 
 from app.demonstrations.schemas import DemonstrationIn
 from app.models import Demonstration as DemonstrationRow
-from app.models import World
-from app.worlds.convert import to_core as world_to_core
+from app.worlds.convert import StoredWorld
 from irl_core import Demonstration, simulate
 
 
-def simulated_columns(world: World, told: DemonstrationIn) -> dict[str, Any]:
+def simulated_columns(stored: StoredWorld, told: DemonstrationIn) -> dict[str, Any]:
     """Live the attempt again and return what is stored of it; raises ImpossibleDemonstration."""
-    attempt = simulate(world_to_core(world), told.actions, attempt_id=told.id, ending=told.ending, id=told.id)
+    attempt = simulate(stored.world, told.actions, attempt_id=told.id, ending=told.ending, id=told.id)
     return {
         "id": told.id,
-        "world_id": world.id,
+        "world_id": stored.id,
         "states": attempt.states.tolist(),
         "actions": attempt.actions.tolist(),
         "rewards": attempt.rewards.tolist(),
@@ -27,7 +26,7 @@ def simulated_columns(world: World, told: DemonstrationIn) -> dict[str, Any]:
     }
 
 
-def to_core(row: DemonstrationRow) -> Demonstration:
+def demonstration_from_row(row: DemonstrationRow) -> Demonstration:
     """Read a stored demonstration."""
     return Demonstration(
         id=row.id,

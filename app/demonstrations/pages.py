@@ -11,10 +11,9 @@ from app.demonstrations.schemas import DemonstrationOut
 from app.dependencies import DatabaseFromApp
 from app.pages import PathState, latest_world_id, path_state, render
 from app.visitors import VisitorOrNone
-from app.models import World
-from app.worlds.convert import generate, to_json
+from app.worlds.convert import StoredWorld, generate
 from app.worlds.dependencies import WorldFromPath
-from app.worlds.queries import find
+from app.worlds.queries import find_world
 from app.worlds.schemas import WorldQuery
 
 router = APIRouter(include_in_schema=False)
@@ -55,13 +54,13 @@ def show_world(
 
 
 def _play(
-    request: Request, database: DatabaseFromApp, visitor_id: str | None, world: World, *, is_front_door: bool
+    request: Request, database: DatabaseFromApp, visitor_id: str | None, world: StoredWorld, *, is_front_door: bool
 ) -> Response:
     with database.read() as session:
-        is_saved = find(session, world.id) is not None
+        is_saved = find_world(session, world.id) is not None
         demonstrations = demonstrations_json(queries.all_in_world(session, visitor_id, world.id))
         path = path_state(session, visitor_id, world.id, "play") if is_saved else PathState()
-    data = {"world": to_json(world), "saved": is_saved, "demonstrations": demonstrations}
+    data = {"world": world.to_json(), "saved": is_saved, "demonstrations": demonstrations}
     page = PlayPage(path=path, world=data["world"], is_front_door=is_front_door, data=data)
     return render(request, "worlds/play.html", page)
 

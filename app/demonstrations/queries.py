@@ -25,6 +25,6 @@ def all_in_world(session: Session, visitor_id: str | None, world_id: str) -> Seq
     return session.scalars(select(Demonstration).where(*theirs).order_by(Demonstration.number)).all()
 
 
-def kept(session: Session, visitor_id: str | None, world_id: str) -> Sequence[Demonstration]:
+def kept_in_world(session: Session, visitor_id: str | None, world_id: str) -> Sequence[Demonstration]:
     """List a visitor's demonstrations in a world that are not discarded, oldest first."""
     return [row for row in all_in_world(session, visitor_id, world_id) if row.discarded_at is None]

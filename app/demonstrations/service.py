@@ -10,17 +10,18 @@ from app.demonstrations import convert, queries
 from app.demonstrations.schemas import DemonstrationIn
 from app.errors import Conflict, NotFound, Unprocessable
 from app.kit.clock import now
-from app.models import Demonstration, World
+from app.models import Demonstration
 from app.visitors import remember
+from app.worlds.convert import StoredWorld
 
 TOLD = ("world_id", "actions", "step_ms", "ending")
 """What makes two tellings of an attempt the same; the rest follows from it."""
 
 
 def record(
-    database: Database, visitor_id: str, world: World, told: DemonstrationIn
+    database: Database, visitor_id: str, world: StoredWorld, told: DemonstrationIn
 ) -> tuple[Demonstration, bool]:
-    """Store an attempt once. Returns it, and whether it is new; raises Conflict if the id tells another story."""
+    """Store an attempt once. Returns it and whether it is new; Conflict if the id tells another story."""
     if len(told.step_ms) != len(told.actions):
         message = f"step_ms has {len(told.step_ms)} times for {len(told.actions)} actions; each step needs one."
         raise Unprocessable(message, fields={"step_ms": message})

@@ -26,4 +26,4 @@ def confirm_ranking(
 def show_rankings(world: WorldFromPath, database: DatabaseFromApp, visitor_id: VisitorOrNone) -> RankingsOut:
     """Show the newest order of each outcome that you have confirmed in this world."""
     with database.read() as session:
-        return convert.rankings_out(queries.latest(session, visitor_id, world.id))
+        return convert.rankings_out(queries.newest(session, visitor_id, world.id))

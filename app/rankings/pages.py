@@ -16,7 +16,6 @@ from app.rankings import convert, queries
 from app.rankings.schemas import Outcome
 from app.rankings.service import start_order
 from app.visitors import VisitorOrNone
-from app.worlds.convert import to_json
 from app.worlds.dependencies import WorldFromPath
 
 router = APIRouter(include_in_schema=False)
@@ -32,16 +31,14 @@ class RankPage:
 
 
 @router.get("/worlds/{world_id}/rank", response_model=None)
-def show_rank(
-    request: Request, world: WorldFromPath, database: DatabaseFromApp, visitor_id: VisitorOrNone
-) -> Response:
+def show_rank(request: Request, world: WorldFromPath, database: DatabaseFromApp, visitor_id: VisitorOrNone) -> Response:
     """Show both lists: in the order confirmed last, or in their start order."""
     with database.read() as session:
         rows = all_in_world(session, visitor_id, world.id)
-        newest = queries.latest(session, visitor_id, world.id)
+        newest = queries.newest(session, visitor_id, world.id)
         path = path_state(session, visitor_id, world.id, "rank")
     data = {
-        "world": to_json(world),
+        "world": world.to_json(),
         "demonstrations": demonstrations_json(rows),
         "rankings": convert.rankings_out(newest).model_dump(mode="json"),
         "start_order": {
@@ -52,8 +49,6 @@ def show_rank(
     return render(request, "rankings/rank.html", RankPage(path=path, world=data["world"], data=data))
 
 
-def _shuffled_kept(
-    rows: Sequence[Demonstration], visitor_id: str | None, world_id: str, outcome: Outcome
-) -> list[str]:
+def _shuffled_kept(rows: Sequence[Demonstration], visitor_id: str | None, world_id: str, outcome: Outcome) -> list[str]:
     kept = [row.id for row in rows if row.outcome == outcome and row.discarded_at is None]
     return start_order(str(visitor_id), world_id, outcome, kept)

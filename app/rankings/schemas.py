@@ -36,7 +36,7 @@ class RankingIn(BaseModel):
         max_length=MOST_RANKED,
         description="Groups in display order: best success first, worst failure first. A group of several is a tie.",
     )
-    confirmed: bool = Field(strict=True, description="The person said that this is their order; nothing else is stored.")
+    confirmed: bool = Field(strict=True, description="The person said that this is their order.")
 
 
 class RankingOut(BaseModel):

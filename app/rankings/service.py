@@ -18,7 +18,7 @@ PLURAL = {"success": "successes", "failure": "failures"}
 
 
 def confirm(database: Database, visitor_id: str | None, world_id: str, outcome: Outcome, told: RankingIn) -> Ranking:
-    """Store the order as the next version; raises Unprocessable unless it holds exactly what is kept of this outcome."""
+    """Store the order as the next version; raises Unprocessable unless it holds exactly what is kept."""
     if not told.confirmed:
         message = "Only an order that the person has confirmed is stored: send it again with confirmed: true."
         raise Unprocessable(message, fields={"confirmed": message})
@@ -26,7 +26,7 @@ def confirm(database: Database, visitor_id: str | None, world_id: str, outcome: 
     def store(session: Session) -> Ranking:
         theirs = all_in_world(session, visitor_id, world_id)
         check_order(told.order, theirs, outcome)
-        known = queries.latest(session, visitor_id, world_id).get(outcome)
+        known = queries.newest(session, visitor_id, world_id).get(outcome)
         ids = [member for group in told.order for member in group]
         ranking = Ranking(
             world_id=world_id,

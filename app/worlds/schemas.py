@@ -23,7 +23,9 @@ Square = Annotated[int, Field(ge=0, lt=10_000, strict=True)]
 class WorldIn(BaseModel):
     """What a world is generated from; everything has a default."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, json_schema_extra={"examples": [{"rows": 7, "cols": 7, "seed": 5}]})
+    model_config = ConfigDict(
+        extra="forbid", frozen=True, json_schema_extra={"examples": [{"rows": 7, "cols": 7, "seed": 5}]}
+    )
 
     rows: Size = Field(default=7, description="Rows, 2 to 100.")
     cols: Size = Field(default=7, description="Columns, 2 to 100.")
