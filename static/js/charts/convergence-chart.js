@@ -46,6 +46,11 @@ export class ConvergenceChart {
     });
   }
 
+  /** Draw another run from now on. @param {FrameStore} store */
+  read(store) {
+    this.#store = store;
+  }
+
   /** @param {Measure} measure */
   show(measure) {
     this.#measure = measure;
@@ -79,7 +84,9 @@ export class ConvergenceChart {
     const { iterations, columns } = this.#store.columns(this.#learners, this.#measure);
     const isLog = this.#measure === "gap";
     // A logarithmic axis has no zero: a gap that vanished entirely leaves the line there.
-    const drawable = columns.map((column) => column.map((value) => (value === null || (isLog && value <= 0) ? null : value)));
+    const drawable = columns.map((column) =>
+      column.map((value) => (value === null || (isLog && value <= 0) ? null : value)),
+    );
     return /** @type {uPlot.AlignedData} */ ([iterations, ...drawable]);
   }
 
@@ -93,7 +100,12 @@ export class ConvergenceChart {
     const style = getComputedStyle(this.#box);
     const ink = style.color;
     const line = style.getPropertyValue("border-top-color") || ink;
-    const axis = { stroke: ink, font: `12px ${style.fontFamily}`, grid: { stroke: line, width: 1 }, ticks: { stroke: line, width: 1, size: 4 } };
+    const axis = {
+      stroke: ink,
+      font: `12px ${style.fontFamily}`,
+      grid: { stroke: line, width: 1 },
+      ticks: { stroke: line, width: 1, size: 4 },
+    };
     const isLog = this.#measure === "gap";
     return {
       ...this.#size(),
@@ -106,7 +118,13 @@ export class ConvergenceChart {
       },
       axes: [
         { ...axis, label: undefined, size: 26, gap: 4, space: 60 },
-        { ...axis, size: AXIS_LEFT, gap: 4, space: 26, values: (_plot, values) => values.map((value) => tick(value, isLog)) },
+        {
+          ...axis,
+          size: AXIS_LEFT,
+          gap: 4,
+          space: 26,
+          values: (_plot, values) => values.map((value) => tick(value, isLog)),
+        },
       ],
       series: [
         {},
@@ -176,7 +194,7 @@ function drawMarkers(plot, index, learner, ground) {
 function markerRows(plot, index) {
   const iterations = plot.data[0];
   const column = plot.data[index] ?? [];
-  const stride = (plot.scales["x"]?.max ?? 1) / MARKERS_PER_LINE;
+  const stride = (plot.scales.x?.max ?? 1) / MARKERS_PER_LINE;
   // Each line starts its markers a little later, so that lines on top of each other still show all their shapes.
   let due = (stride * (index - 1)) / plot.series.length;
   let lastRow = -1;

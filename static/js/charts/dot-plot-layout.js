@@ -63,7 +63,10 @@ export function layOutDotPlot(entries, width) {
       expected: entry.expected_return === null ? null : x(entry.expected_return),
       greedy: entry.greedy_return === null ? null : x(entry.greedy_return),
     })),
-    ticks: ticks(domain[0], domain[1], Math.max(3, Math.floor((right - left) / 70))).map((value) => ({ x: x(value), value })),
+    ticks: ticks(domain[0], domain[1], Math.max(3, Math.floor((right - left) / 70))).map((value) => ({
+      x: x(value),
+      value,
+    })),
     zero: domain[0] < 0 && domain[1] > 0 ? x(0) : null,
     optimum: optimal === null ? null : x(optimal),
   };

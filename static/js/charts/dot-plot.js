@@ -58,7 +58,8 @@ function axis(layout) {
     svgElement("text", { class: "dot-plot-tick", x, y: bottom + 16, "text-anchor": "middle" }, tickText(value)),
   ]);
   const lines = [svgElement("line", { class: "dot-plot-axis", x1: left, x2: right, y1: bottom, y2: bottom })];
-  if (zero !== null) lines.push(svgElement("line", { class: "dot-plot-zero", x1: zero, x2: zero, y1: top, y2: bottom }));
+  if (zero !== null)
+    lines.push(svgElement("line", { class: "dot-plot-zero", x1: zero, x2: zero, y1: top, y2: bottom }));
   return [...marks, ...lines];
 }
 
@@ -74,7 +75,9 @@ function rowGroup({ entry, y, mean, interval, expected, greedy }, layout) {
     svgElement("line", { class: "dot-plot-guide", x1: layout.left, x2: layout.right, y1: y, y2: y }),
   );
   if (greedy !== null) {
-    group.append(svgElement("path", { class: "dot-plot-greedy", d: markerPath(walker(entry.who).shape, greedy, y, 5) }));
+    group.append(
+      svgElement("path", { class: "dot-plot-greedy", d: markerPath(walker(entry.who).shape, greedy, y, 5) }),
+    );
   }
   if (interval) {
     const [from, to] = interval;
@@ -94,7 +97,11 @@ function optimumLine({ optimum, top, bottom, width }) {
   const anchor = optimum > width - 48 ? "end" : "middle";
   return [
     svgElement("line", { class: "dot-plot-optimum", x1: optimum, x2: optimum, y1: top - 4, y2: bottom }),
-    svgElement("text", { class: "dot-plot-tick", x: anchor === "end" ? width - 2 : optimum, y: top - 10, "text-anchor": anchor }, "optimum"),
+    svgElement(
+      "text",
+      { class: "dot-plot-tick", x: anchor === "end" ? width - 2 : optimum, y: top - 10, "text-anchor": anchor },
+      "optimum",
+    ),
   ];
 }
 

@@ -9,9 +9,9 @@ const SVG = "http://www.w3.org/2000/svg";
  * @param {string} who
  */
 export function marker(who) {
-  const svg = svgElement("svg", { class: "marker", viewBox: "-8 -8 16 16", "aria-hidden": "true" });
+  const svg = svgElement("svg", { class: "marker", viewBox: "-1.3 -1.3 2.6 2.6", "aria-hidden": "true" });
   svg.setAttribute("data-who", who);
-  svg.append(svgElement("path", { d: markerPath(walker(who).shape, 0, 0, 6) }));
+  svg.append(svgElement("path", { d: markerPath(walker(who).shape) }));
   return svg;
 }
 

@@ -36,10 +36,7 @@ export function roundDomain(values) {
   const high = Math.max(...finite);
   const margin = (high - low || Math.abs(high) || 1) * 0.06;
   const step = roundStep((high - low + 2 * margin) / 6);
-  return [
-    tidy(Math.floor((low - margin) / step) * step, step),
-    tidy(Math.ceil((high + margin) / step) * step, step),
-  ];
+  return [tidy(Math.floor((low - margin) / step) * step, step), tidy(Math.ceil((high + margin) / step) * step, step)];
 }
 
 /**

@@ -1,18 +1,14 @@
 /**
- * The command that computes a run again from its demonstration file.
- * @import {Run, SettingInfo} from "#js/learning/types.js"
+ * The command that computes a run again from its demonstration file. Every setting is named, also those at their default,
+ * so that the command still gives the same when a default changes.
+ * @import {Run} from "#js/learning/types.js"
  */
 
-/**
- * @param {Pick<Run, "id" | "seed" | "learners" | "settings">} run
- * @param {Record<string, number | string>} defaults
- */
-export function reproduceCommand(run, defaults) {
-  const changed = Object.entries(run.settings)
-    .filter(([name, value]) => name in defaults && value !== defaults[name])
-    .map(([name, value]) => `--set ${name}=${value}`);
+/** @param {Pick<Run, "id" | "seed" | "learners" | "settings">} run */
+export function reproduceCommand(run) {
   const learners = Object.keys(run.learners).join(",");
-  return ["irlfr learn", fileName(run), `--seed ${run.seed}`, `--learners ${learners}`, ...changed].join(" ");
+  const settings = Object.entries(run.settings).map(([name, value]) => `--set ${name}=${value}`);
+  return ["irlfr learn", fileName(run), `--seed ${run.seed}`, `--learners ${learners}`, ...settings].join(" ");
 }
 
 /** @param {Pick<Run, "id">} run */

@@ -1,8 +1,8 @@
 /**
  * Where everybody is in an episode: positions, totals and flags from recorded states. Each agent has its own number of
  * episodes (the person has their attempts), so episode k of the chooser is episode k modulo that number.
- * @import {Entry, Episode, Rollouts} from "#js/comparisons/types.js"
- * @import {Demonstration, Ranking, Rankings, World} from "#js/learning/types.js"
+ * @import {Episode, Rollouts} from "#js/comparisons/types.js"
+ * @import {World} from "#js/learning/types.js"
  */
 
 /**
@@ -16,28 +16,6 @@
  * @property {boolean} isOver
  * @property {boolean} reachedGoal the goal has been reached by now
  */
-
-/**
- * The rollouts by agent; the person's are their ranked attempts, best first, when the server sent none.
- * @param {Rollouts} rollouts
- * @param {Demonstration[]} demonstrations
- * @param {Rankings} rankings
- * @param {World} world
- * @returns {Rollouts}
- */
-export function withHuman(rollouts, demonstrations, rankings, world) {
-  if (rollouts["human"]?.length) return rollouts;
-  const byId = new Map(demonstrations.filter((one) => !one.discarded).map((one) => [one.id, one]));
-  const ids = [...inOrder(rankings.success), ...inOrder(rankings.failure).reverse()];
-  const ranked = ids.flatMap((id) => byId.get(id) ?? []);
-  const attempts = ranked.length > 0 ? ranked : [...byId.values()];
-  const human = attempts.map(({ states, total }) => ({
-    states,
-    total,
-    reached_goal: world.goals.includes(states.at(-1) ?? -1),
-  }));
-  return { ...rollouts, human };
-}
 
 /**
  * @param {Episode[] | undefined} episodes
@@ -107,9 +85,4 @@ function facingOf(world, trail) {
   const cols = (here % world.cols) - (previous % world.cols);
   if (rows !== 0) return rows < 0 ? 0 : 2;
   return cols > 0 ? 1 : 3;
-}
-
-/** @param {Ranking | null} ranking */
-function inOrder(ranking) {
-  return ranking?.order.flat() ?? [];
 }

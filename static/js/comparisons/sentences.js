@@ -31,7 +31,10 @@ export function backgroundSentence(entries, attemptTotals) {
   if (!human || learners.length === 0) return "";
   const best = attemptTotals.length > 1 ? ` Your best attempt earned ${figure(Math.max(...attemptTotals))}.` : "";
   const count = attemptTotals.length || human.episodes;
-  const mean = count === 1 ? "Your figure is your one attempt" : `Your figure is the mean of all ${count} attempts, failures included`;
+  const mean =
+    count === 1
+      ? "Your figure is your one attempt"
+      : `Your figure is the mean of all ${count} attempts, failures included`;
   return `${mean}.${best} ${headCount(learners, human)}`.trim();
 }
 
@@ -50,8 +53,10 @@ function againstHuman(learners, human) {
   if (verdict === 0) {
     return `${names} and you earned about the same in this world: ${withReturn(best)} and ${yours}.`;
   }
-  if (verdict > 0) return `${names} ${together ? "each " : ""}earned more than you in this world: ${withReturn(best)} against ${yours}.`;
-  if (learners.length === 1) return `You earned more than ${names} in this world: ${yours} against ${withReturn(best)}.`;
+  if (verdict > 0)
+    return `${names} ${together ? "each " : ""}earned more than you in this world: ${withReturn(best)} against ${yours}.`;
+  if (learners.length === 1)
+    return `You earned more than ${names} in this world: ${yours} against ${withReturn(best)}.`;
   return `You earned more than every learner in this world: ${yours} against ${withReturn(best)} for ${names}, the best of them.`;
 }
 
@@ -104,4 +109,14 @@ function learnersByPlace(entries) {
 /** @param {Pick<Entry, "who">} entry */
 export function isLearner({ who }) {
   return who !== "human" && who !== "optimal";
+}
+
+/**
+ * In the order they stand on stage: the person, the learners as they were asked for, the optimum.
+ * @param {Entry[]} entries
+ * @param {string[]} learners
+ */
+export function onStage(entries, learners) {
+  const order = ["human", ...learners, "optimal"];
+  return [...entries].sort((a, b) => order.indexOf(a.who) - order.indexOf(b.who));
 }

@@ -1,6 +1,6 @@
 /**
  * The JSON of the comparison room, as ARCHITECTURE.md draws it.
- * @import {Demonstration, Rankings, Run, World, LearnerInfo, SettingInfo} from "#js/learning/types.js"
+ * @import {Demonstration, Rankings, Run, World} from "#js/learning/types.js"
  *
  * @typedef {object} Entry how one agent did, measured on the same world
  * @property {string} who "human", a learner's name or "optimal"

@@ -1,6 +1,6 @@
 /**
  * What a run learns from: the ranked demonstrations with their weights, and the squares they touched.
- * @import {Demonstration, LearnerInfo, Rankings, Run, World} from "#js/learning/types.js"
+ * @import {Demonstration, LearnerInfo, Ranking, Rankings, Run, World} from "#js/learning/types.js"
  */
 import { plural } from "#js/lib/format.js";
 
@@ -14,10 +14,10 @@ import { plural } from "#js/lib/format.js";
  * @returns {Weighted[]} heaviest first
  */
 export function weighted(demonstrations, rankings, outcome) {
-  const kept = demonstrations.filter((one) => one.outcome === outcome && !one.discarded);
-  const weights = rankings[outcome]?.weights;
+  const kept = keptOf(demonstrations, outcome);
+  const weights = fits(rankings[outcome], kept) ? rankings[outcome]?.weights : undefined;
   return kept
-    .map((demonstration) => ({ demonstration, weight: weights ? (weights[demonstration.id] ?? 0) : 1 / kept.length }))
+    .map((demonstration) => ({ demonstration, weight: weights?.[demonstration.id] ?? 1 / kept.length }))
     .sort((a, b) => b.weight - a.weight);
 }
 
@@ -44,21 +44,25 @@ export function untouched(world, demonstrations, learner) {
  * @param {Rankings} rankings
  */
 export function describeMaterial(demonstrations, rankings) {
-  const successes = weighted(demonstrations, rankings, "success").length;
-  const failures = weighted(demonstrations, rankings, "failure").length;
-  if (successes + failures === 0) return "Nothing to learn from yet.";
-  const counts = `${plural(successes, "success", "successes")} and ${plural(failures, "failure")}`;
+  const successes = keptOf(demonstrations, "success");
+  const failures = keptOf(demonstrations, "failure");
+  if (successes.length + failures.length === 0) return "Nothing to learn from yet.";
+  const counts = `${plural(successes.length, "success", "successes")} and ${plural(failures.length, "failure")}`;
   return `${counts}, ${orderInWords(successes, failures, rankings)}.`;
 }
 
 /**
- * @param {number} successes
- * @param {number} failures
+ * @param {Demonstration[]} successes
+ * @param {Demonstration[]} failures
  * @param {Rankings} rankings
  */
 function orderInWords(successes, failures, rankings) {
-  const isOrdered = { success: successes < 2 || !!rankings.success, failure: failures < 2 || !!rankings.failure };
-  if (isOrdered.success && isOrdered.failure) return successes + failures > 2 ? "in your order" : "nothing to order";
+  const isOrdered = {
+    success: successes.length < 2 || fits(rankings.success, successes),
+    failure: failures.length < 2 || fits(rankings.failure, failures),
+  };
+  if (isOrdered.success && isOrdered.failure)
+    return successes.length + failures.length > 2 ? "in your order" : "nothing to order";
   if (isOrdered.success) return "the failures not in order yet";
   if (isOrdered.failure) return "the successes not in order yet";
   return "not in order yet";
@@ -78,4 +82,37 @@ export function isOutdated(run, demonstrations, rankings) {
     rankings.failure?.created_at,
   ];
   return changes.some((at) => at !== undefined && Date.parse(at) > taken);
+}
+
+/**
+ * Where a person goes to give a learner what it misses: to the order if there are attempts of every kind it needs.
+ * @param {World} world
+ * @param {Demonstration[]} demonstrations
+ * @param {Pick<LearnerInfo, "uses_failures">} learner
+ * @returns {{ href: string, text: string }}
+ */
+export function wayThere(world, demonstrations, { uses_failures }) {
+  const hasAll =
+    keptOf(demonstrations, "success").length > 0 && (!uses_failures || keptOf(demonstrations, "failure").length > 0);
+  return hasAll
+    ? { href: `/worlds/${world.id}/rank`, text: "Rank your attempts →" }
+    : { href: `/worlds/${world.id}`, text: "Play →" };
+}
+
+/**
+ * @param {Demonstration[]} demonstrations
+ * @param {"success" | "failure"} outcome
+ */
+function keptOf(demonstrations, outcome) {
+  return demonstrations.filter((one) => one.outcome === outcome && !one.discarded);
+}
+
+/**
+ * True when a ranking still speaks of exactly these demonstrations.
+ * @param {Ranking | null} ranking
+ * @param {Demonstration[]} kept
+ */
+function fits(ranking, kept) {
+  const ids = new Set(ranking?.order.flat());
+  return ranking !== null && ids.size === kept.length && kept.every((one) => ids.has(one.id));
 }

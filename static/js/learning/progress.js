@@ -17,6 +17,7 @@ export class RunProgress {
   /** @type {RunStatus} */
   #status;
   #reason = "";
+  #nLeftOut = 0;
   /** @type {string[]} */
   #learners;
   /** @type {Record<string, string>} */
@@ -54,6 +55,7 @@ export class RunProgress {
    */
   settle(learner, result) {
     this.#results.set(learner, result);
+    this.#nLeftOut = Math.max(this.#nLeftOut, result.n_left_out ?? 0);
   }
 
   /**
@@ -131,10 +133,17 @@ export class RunProgress {
 
   #doneSentence() {
     const diverged = this.#learners.filter((learner) => this.#results.get(learner)?.outcome === "diverged");
-    const all = this.#learners.length === 1 ? this.#titleOf(this.#learners[0] ?? "") : `All ${this.#learners.length} learners`;
+    const all =
+      this.#learners.length === 1 ? this.#titleOf(this.#learners[0] ?? "") : `All ${this.#learners.length} learners`;
     const verb = this.#learners.length === 1 ? "has" : "have";
-    if (diverged.length === 0) return `${all} ${verb} learned from your play.`;
+    if (diverged.length === 0) return `${all} ${verb} learned from your play.${this.#leftOut}`;
     return `The run is done. ${listed(diverged.map((learner) => this.#titleOf(learner)))} ran away instead of settling.`;
+  }
+
+  get #leftOut() {
+    if (this.#nLeftOut === 0) return "";
+    const verb = this.#nLeftOut === 1 ? "was" : "were";
+    return ` ${plural(this.#nLeftOut, "failure")} that never reached the goal ${verb} left out.`;
   }
 
   #howFar() {

@@ -1,0 +1,80 @@
+/**
+ * The convergence chart in words and as a table: its title, what it means, its text alternative, its figures.
+ * @import {FrameStore} from "#js/learning/frame-store.js"
+ * @import {LearnerInfo} from "#js/learning/types.js"
+ */
+import { significant } from "#js/charts/figures.js";
+
+/** @typedef {"gap" | "log_likelihood"} Measure */
+
+const MOST_ROWS = 12;
+
+const WORDS = {
+  gap: {
+    title: "Gap to your play",
+    name: "Gap in visits",
+    help:
+      "The gap is the largest difference, over all squares, between how often the learner expects to come by and how often you did, " +
+      "weighted by your order. At zero the learner spends its time exactly as your successes did.",
+  },
+  log_likelihood: {
+    title: "Log-likelihood of your successes",
+    name: "Log-likelihood",
+    help: "How probable your successes are under the learned reward, as a logarithm: the closer to zero, the better it explains them.",
+  },
+};
+
+/** @param {Measure} measure */
+export const measureTitle = (measure) => WORDS[measure].title;
+
+/** @param {Measure} measure */
+export const measureHelp = (measure) => WORDS[measure].help;
+
+/**
+ * @param {FrameStore} store
+ * @param {Pick<LearnerInfo, "name" | "title">[]} learners
+ * @param {Measure} measure
+ */
+export function chartInWords(store, learners, measure) {
+  if (learners.length === 0) return "Nothing has been learned yet.";
+  const scale = measure === "gap" ? ", logarithmic scale" : "";
+  const lines = learners.map(({ name, title }) => {
+    const first = store.at(name, 0);
+    const last = store.latest(name);
+    return `${title} from ${significant(first?.[measure])} at iteration ${first?.iteration} to ${significant(last?.[measure])} at ${last?.iteration}`;
+  });
+  return `${WORDS[measure].name} by iteration${scale}: ${lines.join("; ")}.`;
+}
+
+/**
+ * At most a dozen rows, evenly spread over the recorded iterations.
+ * @param {FrameStore} store
+ * @param {Pick<LearnerInfo, "name" | "title">[]} learners
+ * @param {Measure} measure
+ */
+export function figuresTable(store, learners, measure) {
+  const table = document.createElement("table");
+  const head = table.createTHead().insertRow();
+  for (const text of ["Iteration", ...learners.map(({ title }) => title)]) {
+    const cell = document.createElement("th");
+    cell.scope = "col";
+    cell.textContent = text;
+    head.append(cell);
+  }
+  const body = table.createTBody();
+  for (const iteration of spread(store.iterations, MOST_ROWS)) {
+    const row = body.insertRow();
+    row.insertCell().textContent = String(iteration);
+    for (const { name } of learners) row.insertCell().textContent = significant(store.at(name, iteration)?.[measure]);
+  }
+  return table;
+}
+
+/**
+ * @param {number[]} values
+ * @param {number} most
+ */
+export function spread(values, most) {
+  if (values.length <= most) return values;
+  return Array.from({ length: most }, (_, i) => values[Math.round((i * (values.length - 1)) / (most - 1))] ?? 0);
+}
