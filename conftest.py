@@ -1,0 +1,12 @@
+"""Options of the whole test run, and its order."""
+
+import pytest
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--screenshots", action="store_true", help="write screenshots of every page to docs/screenshots")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Browser walks go last: playwright leaves an event loop running in the main thread, which others do not expect."""
+    items.sort(key=lambda item: "browser" in item.path.parts)
