@@ -51,7 +51,7 @@ class Settings(BaseSettings):
     @field_validator("secret_key")
     @classmethod
     def _is_long_enough(cls, key: SecretStr | None) -> SecretStr | None:
-        if key is not None and len(key.get_secret_value()) < 32:  # noqa: PLR2004 - 32 characters, said in the message
+        if key is not None and len(key.get_secret_value()) < 32:
             message = "must have at least 32 characters; make one with: python -c 'import secrets; print(secrets.token_hex())'"
             raise ValueError(message)
         return key

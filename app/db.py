@@ -11,11 +11,13 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from types import ModuleType
-from typing import Any, TypeVar
+from typing import Any, Literal, TypeAlias, TypeVar
 
 import sqlalchemy as sa
 from alembic import command
 from alembic.config import Config
+from alembic.runtime.migration import MigrationContext
+from alembic.script import ScriptDirectory
 from filelock import FileLock
 from sqlalchemy import Connection, Engine, event
 from sqlalchemy.orm import Session
@@ -47,8 +49,8 @@ class Database:
     def __init__(self, settings: Settings, *, patience_ms: int = WEB_PATIENCE_MS) -> None:
         settings.data_dir.mkdir(parents=True, exist_ok=True)
         self.url = settings.database_url
-        self._readers = make_engine(self.url, is_reader=True, patience_ms=patience_ms)
-        self._writers = make_engine(self.url, patience_ms=patience_ms)
+        self._readers = make_engine(self.url, "read", patience_ms=patience_ms)
+        self._writers = make_engine(self.url, "write", patience_ms=patience_ms)
         self._writer = Writer(self._writers, queue_length=settings.write_queue_length)
 
     @contextmanager
@@ -72,26 +74,35 @@ class Database:
         self._readers.dispose()
 
 
-def make_engine(url: str, *, is_reader: bool = False, patience_ms: int = WEB_PATIENCE_MS) -> Engine:
-    """Return an engine whose connections hold the promises at the head of this module."""
+Access: TypeAlias = Literal["read", "write", "jobs"]
+
+
+def make_engine(url: str, access: Access, *, patience_ms: int = WEB_PATIENCE_MS) -> Engine:
+    """Return an engine whose connections hold the promises at the head of this module.
+
+    The job engine ("jobs") mixes reads and writes in its transactions: the driver begins one, IMMEDIATE, at the first
+    write, so that its many polls take no lock.
+    """
     engine = sa.create_engine(url, module=SQLITE, pool_size=20, max_overflow=0, pool_timeout=10)
 
     @event.listens_for(engine, "connect")
     def set_up(connection: Any, _: object) -> None:  # noqa: ANN401 - the driver's own connection
-        connection.isolation_level = None  # the driver opens no transaction of its own; "begin" below does
+        connection.isolation_level = "IMMEDIATE" if access == "jobs" else None
         for pragma in (
             f"busy_timeout={patience_ms}",
             "journal_mode=WAL",
             "synchronous=FULL",
             "foreign_keys=ON",
             f"journal_size_limit={64 * 2**20}",
-            f"query_only={'ON' if is_reader else 'OFF'}",
+            f"query_only={'ON' if access == 'read' else 'OFF'}",
         ):
             connection.execute(f"PRAGMA {pragma}")
 
-    @event.listens_for(engine, "begin")
-    def begin(connection: Connection) -> None:
-        connection.exec_driver_sql("BEGIN" if is_reader else "BEGIN IMMEDIATE")
+    if access != "jobs":
+
+        @event.listens_for(engine, "begin")
+        def begin(connection: Connection) -> None:
+            connection.exec_driver_sql("BEGIN" if access == "read" else "BEGIN IMMEDIATE")
 
     return engine
 
@@ -102,11 +113,25 @@ def migrate(settings: Settings) -> None:
 
     settings.data_dir.mkdir(parents=True, exist_ok=True)
     with FileLock(settings.data_dir / "migration.lock"):  # two processes that start at once take turns
-        config = Config()
-        config.set_main_option("script_location", str(_migrations_dir()))
-        config.attributes["url"] = settings.database_url
-        command.upgrade(config, "head")
+        command.upgrade(_alembic(settings), "head")
         DBOS.migrate(settings.database_url)
+
+
+def pending_migrations(settings: Settings) -> list[str]:
+    """List the revisions that the file has yet to go through."""
+    scripts = ScriptDirectory.from_config(_alembic(settings))
+    engine = make_engine(settings.database_url, "read")
+    with engine.connect() as connection:
+        done = MigrationContext.configure(connection).get_current_revision()
+    engine.dispose()
+    return [script.revision for script in scripts.iterate_revisions("head", done or "base")]
+
+
+def _alembic(settings: Settings) -> Config:
+    config = Config()
+    config.set_main_option("script_location", str(_migrations_dir()))
+    config.attributes["url"] = settings.database_url
+    return config
 
 
 def _migrations_dir() -> Path:

@@ -14,7 +14,7 @@ def is_ours(name: str | None, kind: str, _: object) -> bool:
     return kind != "table" or name in Base.metadata.tables
 
 
-with make_engine(url).connect() as connection:
+with make_engine(url, "write").connect() as connection:
     context.configure(
         connection=connection,
         target_metadata=Base.metadata,

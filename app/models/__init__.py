@@ -3,7 +3,7 @@
 from app.models.base import Base
 from app.models.demonstration import Demonstration
 from app.models.ranking import Ranking
-from app.models.run import RUN_STATUSES, Run, RunEvent, RunResult, Worker
+from app.models.run import RUN_STATUSES, Run, RunCheckpoint, RunEvent, RunResult, Worker
 from app.models.visitor import Visitor
 from app.models.world import World
 
@@ -13,6 +13,7 @@ __all__ = [
     "Demonstration",
     "Ranking",
     "Run",
+    "RunCheckpoint",
     "RunEvent",
     "RunResult",
     "Visitor",

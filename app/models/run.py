@@ -51,6 +51,16 @@ class RunResult(Base):
     finished_at: Mapped[datetime]
 
 
+class RunCheckpoint(Base):
+    """How far a learner of a run has come: what a worker takes up after its predecessor died. Gone when it finishes."""
+
+    __tablename__ = "run_checkpoint"
+
+    run_id: Mapped[str] = mapped_column(ForeignKey("run.id", ondelete="CASCADE"), primary_key=True)
+    learner: Mapped[str] = mapped_column(String(40), primary_key=True)
+    state: Mapped[dict[str, Any]] = mapped_column(JSON, comment="irl_core.LearningState.to_json(), floats exact")
+
+
 class RunEvent(Base):
     """One event of a run's stream, in order: what a browser that comes late, or back, is sent."""
 

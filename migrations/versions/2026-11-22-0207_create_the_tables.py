@@ -107,6 +107,14 @@ def upgrade() -> None:
     op.create_index("ix_run_visitor_world", "run", ["visitor_id", "world_id", "created_at"], unique=False)
 
     op.create_table(
+        "run_checkpoint",
+        sa.Column("run_id", sa.String(length=36), nullable=False),
+        sa.Column("learner", sa.String(length=40), nullable=False),
+        sa.Column("state", sa.JSON(), nullable=False, comment="irl_core.LearningState.to_json(), floats exact"),
+        sa.ForeignKeyConstraint(["run_id"], ["run.id"], name=op.f("fk_run_checkpoint_run_id_run"), ondelete="CASCADE"),
+        sa.PrimaryKeyConstraint("run_id", "learner", name=op.f("pk_run_checkpoint")),
+    )
+    op.create_table(
         "run_event",
         sa.Column("run_id", sa.String(length=36), nullable=False),
         sa.Column("number", sa.Integer(), nullable=False, comment="1, 2, …: the id of the server-sent event"),
@@ -130,6 +138,7 @@ def upgrade() -> None:
 def downgrade() -> None:
     op.drop_table("run_result")
     op.drop_table("run_event")
+    op.drop_table("run_checkpoint")
     op.drop_index("ix_run_visitor_world", "run")
     op.drop_table("run")
     op.drop_table("ranking")

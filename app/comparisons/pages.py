@@ -1,0 +1,62 @@
+"""The page on which everybody is seen side by side."""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from fastapi import APIRouter, Request
+from starlette.responses import RedirectResponse, Response
+
+from app.comparisons import queries
+from app.demonstrations.pages import demonstrations_json
+from app.dependencies import DatabaseFromApp
+from app.learning.convert import describe_settings, snapshot_rankings, to_out
+from app.learning.dependencies import RunFromPath
+from app.learning.queries import demonstrations_of, latest_done_run, results, world_of
+from app.pages import PathState, path_state, render
+from app.visitors import VisitorOrNone
+from app.worlds.dependencies import WorldFromPath
+
+router = APIRouter(include_in_schema=False)
+
+
+@dataclass(frozen=True, slots=True)
+class ComparePage:
+    """Where a person sees themselves beside the learners and the optimum."""
+
+    path: PathState = field(metadata={"help": "How far this visitor has come in this world."})
+    world: dict[str, Any] = field(metadata={"help": "The world, as the API has it."})
+    data: dict[str, Any] = field(
+        metadata={"help": "The page data: world, demonstrations, rankings, run, comparison, rollouts, settings."}
+    )
+
+
+@router.get("/worlds/{world_id}/compare", response_model=None)
+def lead_to_comparison(world: WorldFromPath, database: DatabaseFromApp, visitor_id: VisitorOrNone) -> Response:
+    """Lead to the latest comparison in this world, or to where one is made."""
+    with database.read() as session:
+        run = latest_done_run(session, visitor_id, world.id)
+    return RedirectResponse(f"/runs/{run.id}/comparison" if run else f"/worlds/{world.id}/learn", 303)
+
+
+@router.get("/runs/{run_id}/comparison", response_model=None)
+def show_comparison(
+    request: Request, run: RunFromPath, database: DatabaseFromApp, visitor_id: VisitorOrNone
+) -> Response:
+    """Show the comparison of a run; one that is not done leads to where it can be watched."""
+    if run.comparison is None:
+        return RedirectResponse(f"/runs/{run.id}", 303)
+    with database.read() as session:
+        world = world_of(session, run)
+        rows = demonstrations_of(session, run)
+        stored = results(session, [run.id])[run.id]
+        path = path_state(session, visitor_id, run.world_id, "compare")
+    data = {
+        "world": world.to_json(),
+        "demonstrations": demonstrations_json(rows),
+        "rankings": snapshot_rankings(run),
+        "run": to_out(run, stored).model_dump(mode="json"),
+        "comparison": queries.comparison_of(run),
+        "rollouts": queries.rollouts_of(run),
+        "settings": describe_settings(),
+    }
+    return render(request, "comparisons/compare.html", ComparePage(path=path, world=data["world"], data=data))

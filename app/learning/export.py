@@ -1,0 +1,18 @@
+"""A run's snapshot as a demonstration file, from which `irlfr learn` gives the same numbers."""
+
+from sqlalchemy.orm import Session
+
+from app.demonstrations.convert import demonstration_from_row
+from app.learning import queries
+from app.learning.convert import to_rankings
+from app.models import Run
+from irl_core import write_demonstration_file
+
+
+def demonstration_file(session: Session, run: Run) -> str:
+    """Write the world, demonstrations and rankings of a run as JSON lines."""
+    return write_demonstration_file(
+        queries.world_of(session, run).world,
+        [demonstration_from_row(row) for row in queries.demonstrations_of(session, run)],
+        to_rankings(run.rankings),
+    )

@@ -1,0 +1,52 @@
+"""What crosses the wire when learning."""
+
+from datetime import datetime
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+LARGEST_SEED = 2**53 - 1
+"""The largest whole number that JavaScript holds exactly."""
+
+
+class RunIn(BaseModel):
+    """What to learn with. Everything may be left out."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+    learners: Annotated[
+        list[Annotated[str, Field(max_length=40)]],
+        Field(min_length=1, max_length=20, description="Names of learners, in the order in which they shall learn."),
+    ] = ["meirl", "irlr", "irlf", "irlfr"]
+    settings: Annotated[
+        dict[Annotated[str, Field(max_length=40)], int | float | str],
+        Field(
+            max_length=40,
+            description="Settings that differ from the defaults, by name: see `settings` on the learn page.",
+        ),
+    ] = {}
+    seed: Annotated[
+        int | None,
+        Field(ge=0, le=LARGEST_SEED, description="For the start weights and the episodes; drawn if left out."),
+    ] = None
+
+
+class RunOut(BaseModel):
+    """A run as it stands."""
+
+    id: str
+    world_id: str
+    status: Literal["queued", "running", "done", "failed", "cancelled"]
+    reason: str | None = Field(description="Why it failed, in words.")
+    seed: int
+    settings: dict[str, Any]
+    learners: dict[str, dict[str, Any]] = Field(
+        description="By name: outcome, sentence, iterations, gap, log_likelihood, reward[rows][cols], "
+        "policy[rows·cols][4] (the one that is executed), visitation[rows][cols]; outcome is null until it has finished."
+    )
+    n_demonstrations: int
+    n_left_out: int = Field(description="Failures that never reached the goal and were not learned from.")
+    versions: dict[str, str]
+    created_at: datetime
+    started_at: datetime | None
+    finished_at: datetime | None

@@ -1,0 +1,152 @@
+"""What a worker does in a run, in steps that are each one transaction and may be done again.
+
+    begin      queued → running
+    advance    a learner goes on for a moment; its checkpoint and a frame are stored together
+               … its last step stores the result instead, once, and forgets the checkpoint
+    finish     everybody is compared; running → done
+    fail       the reason is stored; → failed
+
+Each step first makes sure that the run is still wanted. A worker that dies loses at most one step: its successor finds the
+checkpoint, whose numbers are stored exactly, and goes on to the same result, bit for bit.
+"""
+
+import time
+from dataclasses import dataclass
+
+from sqlalchemy import delete, func, select, update
+from sqlalchemy.dialects.sqlite import insert
+from sqlalchemy.orm import Session
+
+from app.db import Database
+from app.demonstrations.convert import demonstration_from_row
+from app.kit import clock
+from app.learning import events, queries
+from app.learning.convert import to_problem
+from app.models import Run, RunCheckpoint, RunResult
+from irl_core import LEARNERS, Demonstration, Frame, LearningProblem, LearningResult, LearningState, compare
+
+FRAME_EVERY_S = 0.08
+"""How long a learner works between two frames: smooth to the eye, and how soon a cancellation is noticed."""
+FRAME_S_PER_STATE = 1e-4
+"""Large worlds make large frames: 10,000 squares give one each second."""
+N_EPISODES = 50
+"""The paper's: "we have each of the agents perform the task for 50 episodes"."""
+FRAME_DIGITS = 5
+"""Significant digits of the figures in a frame: enough for the eye, and a third of the bytes."""
+
+
+class NoLongerWanted(Exception):
+    """The run was cancelled, or somebody else ended it."""
+
+
+@dataclass(frozen=True, slots=True)
+class LoadedRun:
+    """A run that has begun, and what it learns from."""
+
+    id: str
+    learners: tuple[str, ...]
+    demonstrations: tuple[Demonstration, ...]
+    problem: LearningProblem
+
+
+def begin(database: Database, run_id: str) -> LoadedRun:
+    """Mark the run as running and load its snapshot. Raises NoLongerWanted."""
+
+    def start(session: Session) -> None:
+        _claim(session, run_id, status="running", started_at=func.coalesce(Run.started_at, clock.now()))
+
+    with database.read() as session:
+        run = session.get_one(Run, run_id)
+        world = queries.world_of(session, run).world
+        rows = queries.demonstrations_of(session, run)
+    database.write(start)
+    problem = to_problem(world, rows, run.rankings, settings=run.settings, seed=run.seed)
+    return LoadedRun(run_id, tuple(run.learners), tuple(map(demonstration_from_row, rows)), problem)
+
+
+def advance(database: Database, run: LoadedRun, name: str, *, iterations_at_once: int = 5) -> bool:
+    """Let a learner go on for a moment; True when it has finished. Raises NoLongerWanted."""
+    with database.read() as session:
+        if session.get(RunResult, (run.id, name)) is not None:
+            return True
+        checkpoint = session.get(RunCheckpoint, (run.id, name))
+    learner = LEARNERS[name]
+    if checkpoint is None:
+        state = learner.start(run.problem)  # and its first frame is of what it knows before it has learned anything
+    else:
+        state = LearningState.from_json(checkpoint.state)
+        until = time.monotonic() + max(FRAME_EVERY_S, FRAME_S_PER_STATE * run.problem.world.n_states)
+        while state.outcome is None and time.monotonic() < until:
+            state = learner.advance(run.problem, state, iterations=iterations_at_once)
+    frame = learner.frame(run.problem, state)
+    if state.outcome is None:
+        database.write(lambda session: _store_progress(session, run.id, name, state, frame))
+        return False
+    result = learner.result(run.problem, state)
+    database.write(lambda session: _store_result(session, run.id, name, result, frame))
+    return True
+
+
+def finish(database: Database, run: LoadedRun) -> None:
+    """Compare the human, the learners and the optimum, and end the run. Raises NoLongerWanted."""
+    with database.read() as session:
+        stored = session.scalars(select(RunResult).where(RunResult.run_id == run.id)).all()
+    results = {row.learner: LearningResult.from_json(row.result) for row in stored}
+    problem = run.problem
+    comparison = compare(
+        problem.world,
+        run.demonstrations,
+        [results[name] for name in run.learners],
+        seed=problem.seed,
+        n_episodes=N_EPISODES,
+    ).to_json()
+    rollouts = comparison.pop("rollouts")
+
+    def store(session: Session) -> None:
+        _claim(session, run.id, status="done", comparison=comparison, rollouts=rollouts, finished_at=clock.now())
+        events.append(session, run.id, "done", {"status": "done"})
+
+    database.write(store)
+
+
+def fail(database: Database, run_id: str, reason: str) -> None:
+    """End a run that cannot go on, with the reason for the person who asked. Does nothing to one that has ended."""
+
+    def store(session: Session) -> None:
+        try:
+            _claim(session, run_id, status="failed", reason=reason, finished_at=clock.now())
+        except NoLongerWanted:
+            return
+        events.append(session, run_id, "failed", {"status": "failed", "message": reason})
+
+    database.write(store)
+
+
+def _claim(session: Session, run_id: str, **values: object) -> None:
+    """Change a run that is still wanted, in the same transaction as what this step stores. Raises NoLongerWanted."""
+    changed = session.execute(
+        update(Run)
+        .where(Run.id == run_id, Run.status.in_(("queued", "running")))
+        .values(values or {"status": "running"})
+        .returning(Run.id)
+    ).first()
+    if changed is None:
+        raise NoLongerWanted
+
+
+def _store_progress(session: Session, run_id: str, name: str, state: LearningState, frame: Frame) -> None:
+    _claim(session, run_id)
+    values = {"run_id": run_id, "learner": name, "state": state.to_json()}
+    session.execute(
+        insert(RunCheckpoint).values(values).on_conflict_do_update(index_elements=["run_id", "learner"], set_=values)
+    )
+    events.append(session, run_id, "frame", frame.to_json(digits=FRAME_DIGITS))
+
+
+def _store_result(session: Session, run_id: str, name: str, result: LearningResult, frame: Frame) -> None:
+    _claim(session, run_id)
+    data = result.to_json()
+    session.execute(insert(RunResult).values(run_id=run_id, learner=name, result=data, finished_at=clock.now()))
+    session.execute(delete(RunCheckpoint).where(RunCheckpoint.run_id == run_id, RunCheckpoint.learner == name))
+    events.append(session, run_id, "frame", frame.to_json(digits=FRAME_DIGITS))
+    events.append(session, run_id, "learner", {"learner": name} | {k: v for k, v in data.items() if k != "policy"})
