@@ -3,6 +3,7 @@
 What this module exports is the public interface; the docstrings are its reference.
 """
 
+from irl_core.comparison import Comparison, Entry, compare
 from irl_core.errors import (
     ImpossibleDemonstration,
     InvalidFile,
@@ -21,6 +22,7 @@ from irl_core.evaluation import (
     optimum,
     rollouts,
 )
+from irl_core.files import DemonstrationFile, WorldSection, read_demonstration_file, write_demonstration_file
 from irl_core.gridworld import (
     GENERATOR_VERSION,
     draw_playable_world,
@@ -47,7 +49,10 @@ from irl_core.weights import feature_counts, rank_weights, uniform_weights
 __all__ = [
     "GENERATOR_VERSION",
     "LEARNERS",
+    "Comparison",
     "Demonstration",
+    "DemonstrationFile",
+    "Entry",
     "Frame",
     "HardPlan",
     "ImpossibleDemonstration",
@@ -67,6 +72,8 @@ __all__ = [
     "Settings",
     "SoftPlan",
     "World",
+    "WorldSection",
+    "compare",
     "draw_playable_world",
     "expected_return",
     "expected_visits",
@@ -78,6 +85,7 @@ __all__ = [
     "optimal_plan",
     "optimum",
     "rank_weights",
+    "read_demonstration_file",
     "rollouts",
     "simulate",
     "slip_direction",
@@ -86,4 +94,5 @@ __all__ = [
     "success_is_possible",
     "uniform_weights",
     "visitation",
+    "write_demonstration_file",
 ]

@@ -28,11 +28,12 @@ class Needs(Protocol):
 class LearningProblem:
     """A snapshot that learners start from. Make one with `LearningProblem.build`.
 
-    `failures` are the usable ones: unless the settings include the unfinished, those that ended at a goal;
-    `n_left_out` counts the others. `orders` holds the groups of each ranked outcome.
+    `demonstrations` are all that were given. `failures` are the usable ones: unless the settings include the
+    unfinished, those that ended at a goal; `n_left_out` counts the others. `orders` has the groups of ranked outcomes.
     """
 
     world: World
+    demonstrations: tuple[Demonstration, ...]
     settings: Settings
     seed: int
     successes: tuple[Demonstration, ...]
@@ -61,6 +62,7 @@ class LearningProblem:
             raise InvalidSettings(f"seed must be a whole number from 0 on, not {shown(seed)}.", field="seed")
         return cls(
             world=world,
+            demonstrations=given,
             settings=settings,
             seed=seed,
             successes=tuple(one for one in given if one.outcome == "success"),
