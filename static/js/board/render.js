@@ -65,7 +65,7 @@ export function drawInk(scene) {
   const { context, view } = scene;
   context.clearRect(0, 0, context.canvas.width, context.canvas.height);
   if (view.visits) drawVisits(scene);
-  view.paths.forEach((_, i) => drawPath(scene, i));
+  for (const index of view.paths.keys()) drawPath(scene, index);
   if (view.arrows) drawArrows(scene);
   if (view.numbers) drawFigures(scene);
 }

@@ -37,6 +37,8 @@ export class IrlBoard extends HTMLElement {
   connectedCallback() {
     this.#life = new AbortController();
     const { signal } = this.#life;
+    this.#adopt("world");
+    this.#adopt("view");
     if (!this.#stage.isConnected) {
       this.#stage.append(this.#squares, this.#ink, this.#agents);
       this.#stage.setAttribute("aria-hidden", "true");
@@ -131,6 +133,7 @@ export class IrlBoard extends HTMLElement {
   float(state, text, kind) {
     if (!this.#world) return;
     const [row, col] = placeOf(this.#world, state);
+    this.#stage.querySelector(".board-float")?.remove();
     const note = make("span", `board-float board-float--${kind}`);
     note.textContent = text;
     note.style.left = `${(col + 0.5) * this.#cell}px`;
@@ -147,6 +150,14 @@ export class IrlBoard extends HTMLElement {
       () => note.remove(),
       () => note.remove(),
     );
+  }
+
+  /** What was assigned before the browser knew this element hides the accessor: assign it again. @param {"world" | "view"} name */
+  #adopt(name) {
+    if (!Object.hasOwn(this, name)) return;
+    const value = /** @type {any} */ (this)[name];
+    delete (/** @type {any} */ (this)[name]);
+    /** @type {any} */ (this)[name] = value;
   }
 
   #redrawAll() {

@@ -42,7 +42,7 @@ export class AttemptStrip {
       card.remove();
       this.#cards.delete(id);
     }
-    entries.forEach((entry, i) => this.#update(entry, i + 1));
+    for (const [i, entry] of entries.entries()) this.#update(entry, i + 1);
   }
 
   /** @param {Entry} entry @param {number} n */
@@ -70,7 +70,7 @@ export class AttemptStrip {
 
   /** @param {Entry} entry */
   #make(entry) {
-    const card = /** @type {HTMLElement} */ (this.#template.content.firstElementChild?.cloneNode(true));
+    const card = /** @type {HTMLElement} */ (document.importNode(this.#template.content, true).firstElementChild);
     const isSuccess = entry.outcome === "success";
     const nSteps = entry.actions.length;
     card.dataset.demonstrationId = entry.id;
