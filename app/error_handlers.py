@@ -74,6 +74,12 @@ def add_error_handlers(app: FastAPI) -> None:
         return refuse(request, Unavailable("The server cannot store anything just now; please try again in a moment."))
 
 
+def apologise(request: Request) -> Response:
+    """Answer for an error that nobody foresaw."""
+    message = "Something went wrong on our side. What was saved is safe; please try again."
+    return answer(request, status=500, code="internal", message=message, fields={})
+
+
 _FRAMEWORK_SENTENCES = {
     HTTPStatus.NOT_FOUND: "There is nothing at this address.",
     HTTPStatus.METHOD_NOT_ALLOWED: "This address does not answer to that method.",
@@ -84,6 +90,7 @@ _FRAMEWORK_SENTENCES = {
 _TITLES = {
     HTTPStatus.NOT_FOUND: "Nothing here",
     HTTPStatus.UNPROCESSABLE_ENTITY: "That cannot be",
+    HTTPStatus.INTERNAL_SERVER_ERROR: "Our mistake",
     HTTPStatus.SERVICE_UNAVAILABLE: "One moment, please",
 }
 

@@ -16,7 +16,7 @@ from app.config import Settings
 from app.db import Database
 from app.demonstrations import api as demonstrations_api
 from app.demonstrations import pages as demonstrations_pages
-from app.error_handlers import add_error_handlers
+from app.error_handlers import add_error_handlers, apologise
 from app.learning import api as learning_api
 from app.learning import pages as learning_pages
 from app.learning.dependencies import open_learning
@@ -91,7 +91,7 @@ def middleware(settings: Settings) -> list[Middleware]:
         Middleware(VisitorCookie, signing_key=settings.signing_key, https=settings.https),
         Middleware(CrossSiteGuard),
         Middleware(JsonBodies, max_body_bytes=settings.max_body_bytes),
-        Middleware(UnexpectedErrors),
+        Middleware(UnexpectedErrors, apologise=apologise),
     ]
 
 

@@ -6,11 +6,12 @@ Outermost first: SecurityHeaders → VisitorCookie (visitors.py) → CrossSiteGu
 import json
 import logging
 import secrets
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, NoReturn
 from urllib.parse import urlsplit
 
 from starlette.datastructures import Headers, MutableHeaders
+from starlette.requests import Request
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.errors import AppError, Forbidden, NotJson, TooLarge, Unprocessable, error_json
@@ -208,8 +209,9 @@ def _replay(body: bytes, receive: Receive) -> Receive:
 class UnexpectedErrors:
     """The last net: an error nobody foresaw is logged and answered in our shape, with our headers around it."""
 
-    def __init__(self, app: ASGIApp) -> None:
+    def __init__(self, app: ASGIApp, *, apologise: Callable[[Request], ASGIApp]) -> None:
         self.app = app
+        self.apologise = apologise
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         started = False
@@ -225,15 +227,11 @@ class UnexpectedErrors:
             if scope["type"] != "http" or started:
                 raise
             logger.exception("Unexpected error in %s %s", scope["method"], scope["path"])
-            message = "Something went wrong on our side. Your work so far is saved; please try again."
-            await _send_json(send, status=500, body=error_json("internal", message))
+            await self.apologise(Request(scope))(scope, receive, send)
 
 
 async def _refuse(send: Send, error: AppError) -> None:
-    await _send_json(send, status=error.status, body=error_json(error.error_code, error.message, error.fields))
-
-
-async def _send_json(send: Send, *, status: int, body: bytes) -> None:
+    body = error_json(error.error_code, error.message, error.fields)
     headers = [(b"content-type", b"application/json"), (b"content-length", str(len(body)).encode())]
-    await send({"type": "http.response.start", "status": status, "headers": headers})
+    await send({"type": "http.response.start", "status": error.status, "headers": headers})
     await send({"type": "http.response.body", "body": body})

@@ -1,0 +1,77 @@
+"""The command line, in processes of its own where it matters and in this one where it does not."""
+
+import json
+
+from typer.testing import CliRunner
+
+from app.cli import cli
+from app.db import Database
+from app.learning import worker
+from tests.app.test_learning import ask, played  # noqa: F401 - a fixture
+
+runner = CliRunner()
+
+
+def test_learn_gives_the_numbers_of_the_web_run(client, played, settings, tmp_path):  # noqa: F811
+    run_id = ask(client, played, settings={"iterations": 40, "lambda_min": 4.0}).json()["id"]
+    database = Database(settings)
+    worker.learn_now(database, run_id)
+    database.close()
+    file = tmp_path / "run.jsonl"
+    file.write_text(client.get(f"/api/v1/runs/{run_id}/demonstrations.jsonl").text)
+    out = tmp_path / "out.json"
+    done = runner.invoke(
+        cli, ["learn", str(file), "--seed", "7", "--set", "iterations=40", "--set", "lambda_min=4.0", "--out", str(out)]
+    )
+    assert done.exit_code == 0, done.output
+    assert "IRLFR" in done.output
+    result = json.loads(out.read_text())
+    run = client.get(f"/api/v1/runs/{run_id}").json()
+    comparison = client.get(f"/api/v1/runs/{run_id}/comparison").json()
+    assert result["learners"] == run["learners"]
+    assert result["comparison"]["entries"] == comparison["entries"]
+    assert result["rollouts"] == client.get(f"/api/v1/runs/{run_id}/rollouts").json()
+    assert result["settings"] == run["settings"]
+
+
+def test_learn_refuses_in_words(tmp_path):
+    file = tmp_path / "broken.jsonl"
+    file.write_text('{"kind": "world"')
+    for arguments, word in [
+        ([str(tmp_path / "missing.jsonl")], "No such file"),
+        ([str(file)], "Line 1"),
+        ([str(file), "--set", "iterations"], "lacks its value"),
+        ([str(file), "--learners", "gail"], "no learner 'gail'"),
+    ]:
+        done = runner.invoke(cli, ["learn", *arguments])
+        assert done.exit_code == 2
+        assert word in done.output
+        assert "Traceback" not in done.output
+
+
+def test_doctor_finds_what_is_missing(settings, monkeypatch, tmp_path):
+    monkeypatch.setenv("IRLFR_DATABASE_URL", settings.database_url)
+    found = runner.invoke(cli, ["doctor"])
+    assert found.exit_code == 1, "no worker runs"
+    assert "irlfr worker" in found.output
+    assert f"{settings.database_path}: ok" in found.output
+    monkeypatch.setenv("IRLFR_DATABASE_URL", f"sqlite:///{tmp_path}/nothing/here.sqlite3")
+    missing = runner.invoke(cli, ["doctor"])
+    assert missing.exit_code == 1
+    assert "there is no file" in missing.output
+
+
+def test_settings_that_make_no_sense_are_refused_in_words(monkeypatch):
+    monkeypatch.setenv("IRLFR_PORT", "99999")
+    monkeypatch.setenv("IRLFR_SECRET_KEY", "short")
+    done = runner.invoke(cli, ["doctor"])
+    assert done.exit_code == 2
+    assert "IRLFR_PORT" in done.output
+    assert "32 characters" in done.output
+
+
+def test_every_command_has_help():
+    for command in ("serve", "worker", "learn", "doctor"):
+        done = runner.invoke(cli, [command, "--help"])
+        assert done.exit_code == 0
+        assert len(done.output) > 100

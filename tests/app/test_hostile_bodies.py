@@ -1,0 +1,189 @@
+"""Bodies that no honest client sends: each is refused in our shape, none is stored, none is repeated."""
+
+import json
+
+import pytest
+from sqlalchemy import text
+
+from tests.factories import attempt, make_demonstration, make_world
+
+MARK = "<script>alert(7)</script>"
+
+RAW = {
+    "nothing but a brace": b"{",
+    "not JSON": b"actions=1",
+    "NaN": b'{"seed": NaN}',
+    "Infinity": b'{"slip": Infinity}',
+    "minus Infinity": b'{"slip": -Infinity}',
+    "a number beyond floats": b'{"slip": 1e999}',
+    "an integer of 400 digits": b'{"seed": 1' + b"0" * 400 + b"}",
+    "an integer of 5,000 digits": b'{"seed": 1' + b"0" * 5_000 + b"}",
+    "a name given twice": b'{"seed": 1, "seed": 2}',
+    "nested 100,000 lists": b'{"walls": ' + b"[" * 100_000 + b"]" * 100_000 + b"}",
+    "nested 100,000 objects": b'{"a":' * 100_000 + b"1" + b"}" * 100_000,
+    "nested 500 lists": b'{"walls": ' + b"[" * 500 + b"]" * 500 + b"}",
+    "unclosed lists": b"[" * 200_000,
+    "a lone surrogate": b'{"seed": "\\ud800"}',
+    "a lone surrogate as a name": b'{"\\udfff": 1}',
+    "not UTF-8": b'{"seed": "\xff\xfe"}',
+    "UTF-16": '{"seed": 1}'.encode("utf-16"),
+    "UTF-32": '{"seed": 1}'.encode("utf-32"),
+    "a byte order mark": b'\xef\xbb\xbf{"seed": 1}',
+    "a null byte": b'{"seed": "\x00"}',
+    "an escaped null": b'{"\\u0000": 1}',
+    "a script as a name": json.dumps({MARK: 1}).encode(),
+    "a script as a value": json.dumps({"seed": MARK}).encode(),
+    "a very long name": json.dumps({"n" * 100_000: 1}).encode(),
+    "many names": json.dumps({f"n{k}": k for k in range(20_000)}).encode(),
+    "many walls of the wrong type": json.dumps({"walls": ["1"] * 100_000}).encode(),
+    "a list": b"[]",
+    "a string": b'"x"',
+    "a number": b"7",
+    "true": b"true",
+    "pollution": b'{"__proto__": {"a": 1}, "constructor": 1}',
+    "white space alone": b"   ",
+    "trailing garbage": b'{"seed": 1} x',
+    "a comment": b'{"seed": 1} // one',
+    "single quotes": b"{'seed': 1}",
+}
+ODD_VALUES = [
+    None, True, False, 0, -1, 1.5, 1e308, 10**400, "", "x", "0", MARK, "\x00", [], [[]], [None], {}, {"a": 1},
+    [10**400], ["x"] * 1000, [True], [{}], {"id": "x"}, "8f14e45f-ceea-467f-a1d2-0c6f1f9b2a11\n", "\u202e", "é" * 10_000,
+]  # fmt: skip
+TABLES = ("world", "visitor", "demonstration", "ranking", "run")
+
+
+def n_rows(client) -> dict[str, int]:
+    with client.app.state.database.read() as session:
+        return {table: session.scalar(text(f"SELECT count(*) FROM {table}")) for table in TABLES}
+
+
+def assert_refused(response) -> None:
+    assert 400 <= response.status_code < 500, response.text[:500]
+    assert response.headers["content-type"] == "application/json"
+    error = response.json()["error"]
+    assert set(error) == {"code", "message", "fields"}
+    assert error["message"]
+    assert len(response.content) < 20_000
+    assert "<script" not in response.text
+    response.text.encode("ascii")
+
+
+def post_raw(client, url, body, method="POST"):
+    return client.request(method, url, content=body, headers={"Content-Type": "application/json"})
+
+
+@pytest.mark.parametrize("raw", RAW.values(), ids=RAW.keys())
+def test_hostile_bytes_to_every_call(client, raw):
+    world = make_world(client)
+    played = make_demonstration(client, world)
+    before = n_rows(client)
+    root = f"/api/v1/worlds/{world['id']}"
+    assert_refused(post_raw(client, "/api/v1/worlds", raw))
+    assert_refused(post_raw(client, f"{root}/demonstrations", raw))
+    assert_refused(post_raw(client, f"{root}/rankings/success", raw, "PUT"))
+    assert_refused(post_raw(client, f"{root}/runs", raw))
+    assert post_raw(client, f"/api/v1/demonstrations/{played['id']}/discard", raw, "PUT").status_code < 500
+    assert n_rows(client) == before
+
+
+def test_odd_values_in_every_field(client):
+    world = make_world(client)
+    played = make_demonstration(client, world)
+    before = n_rows(client)
+    root = f"/api/v1/worlds/{world['id']}"
+    bodies = {
+        ("POST", f"{root}/demonstrations"): attempt(world),
+        ("PUT", f"{root}/rankings/success"): {"order": [[played["id"]]], "confirmed": True},
+    }
+    for (method, url), good in bodies.items():
+        for name in good:
+            for value in ODD_VALUES:
+                if good[name] != value or isinstance(value, bool):
+                    response = post_raw(client, url, json.dumps(good | {name: value}).encode(), method)
+                    if (name, value) != ("confirmed", True):
+                        assert_refused(response)
+    after = n_rows(client)
+    assert after == before | {"ranking": after["ranking"]}
+
+
+def test_odd_worlds_never_break_anything(client):
+    for name in ("rows", "cols", "seed", "red_probability", "slip", "walls"):
+        for value in ODD_VALUES:
+            response = post_raw(client, "/api/v1/worlds", json.dumps({"seed": 1, name: value}).encode())
+            assert response.status_code == 201 or not assert_refused(response), (name, value)
+
+
+@pytest.mark.parametrize(
+    "media_type",
+    ["text/plain", "application/x-www-form-urlencoded", "multipart/form-data; boundary=x", "application/jsonx", "", None],
+)
+def test_another_media_type_is_415(client, media_type):
+    headers = {} if media_type is None else {"Content-Type": media_type}
+    response = client.post("/api/v1/worlds", content=b'{"seed": 1}', headers=headers)
+    assert response.status_code == 415
+    assert_refused(response)
+
+
+def test_a_charset_is_fine(client):
+    headers = {"Content-Type": "Application/JSON; charset=utf-8"}
+    assert client.post("/api/v1/worlds", content=b'{"seed": 1}', headers=headers).status_code == 201
+
+
+def test_more_than_the_limit_is_413_declared_or_not(client):
+    large = b'{"walls": [' + b"1," * 600_000 + b"1]}"
+    response = post_raw(client, "/api/v1/worlds", large)
+    assert response.status_code == 413
+    assert_refused(response)
+
+    def chunks():
+        for start in range(0, len(large), 50_000):
+            yield large[start : start + 50_000]
+
+    response = client.post("/api/v1/worlds", content=chunks(), headers={"Content-Type": "application/json"})
+    assert response.status_code == 413
+    assert n_rows(client)["world"] == 0
+
+
+def test_addresses_that_are_none(client):
+    for url in (
+        "/api/v1/worlds/%00", "/api/v1/worlds/%ff%fe", "/api/v1/worlds/" + "a" * 5000, "/api/v1/runs/1",
+        "/api/v1/worlds/..%2f..%2fetc%2fpasswd", "/api/v1/%3Cscript%3E", "/api/v1/worlds/%F0%9F%98%80/demonstrations",
+        "/api/v1/", "/api/v2/worlds",
+    ):  # fmt: skip
+        assert_refused(client.get(url))
+    assert_refused(client.patch("/api/v1/worlds"))
+    assert_refused(client.delete("/api/v1/worlds"))
+
+
+def test_a_broken_database_is_503_with_retry_after_and_no_acknowledgement(client, monkeypatch):
+    from sqlalchemy.exc import OperationalError
+
+    from app.kit.writer import WriterIsBusy
+
+    world = make_world(client)
+    for error in (OperationalError("INSERT", {}, Exception("database or disk is full")), WriterIsBusy()):
+
+        def fail(work, error=error):
+            raise error
+
+        with monkeypatch.context() as patch:
+            patch.setattr(client.app.state.database, "write", fail)
+            response = client.post(f"/api/v1/worlds/{world['id']}/demonstrations", json=attempt(world))
+        assert response.status_code == 503
+        assert response.headers["retry-after"]
+        assert "INSERT" not in response.text
+    make_demonstration(client, world)
+
+
+def test_an_error_nobody_foresaw_keeps_the_shape_and_the_headers(client, monkeypatch):
+    def fail(work):
+        raise RuntimeError(MARK)
+
+    monkeypatch.setattr(client.app.state.database, "write", fail)
+    response = client.post("/api/v1/worlds", json={})
+    assert response.status_code == 500
+    assert response.json()["error"]["code"] == "internal"
+    assert MARK not in response.text
+    assert "content-security-policy" in response.headers
+    assert "set-cookie" not in response.headers

@@ -1,0 +1,110 @@
+"""The writer: everything acknowledged is stored, one failure harms nobody else."""
+
+import threading
+from concurrent.futures import ThreadPoolExecutor
+
+import pytest
+from sqlalchemy import func, insert, select, text
+from sqlalchemy.exc import IntegrityError, OperationalError
+
+from app.config import Settings
+from app.db import Database, make_engine
+from app.kit import clock
+from app.kit.writer import Writer, WriterIsBusy
+from app.models import Visitor
+
+
+@pytest.fixture
+def database(settings: Settings):
+    opened = Database(settings)
+    yield opened
+    opened.close()
+
+
+def add(name: str):
+    return lambda session: session.execute(insert(Visitor).values(id=name, created_at=clock.now())).rowcount
+
+
+def count(database: Database) -> int:
+    with database.read() as session:
+        return session.scalar(select(func.count()).select_from(Visitor)) or 0
+
+
+def test_many_threads_store_everything_once(database):
+    with ThreadPoolExecutor(16) as pool:
+        list(pool.map(lambda number: database.write(add(str(number))), range(400)))
+    assert count(database) == 400
+
+
+def test_a_failing_piece_of_work_takes_no_other_with_it(database):
+    database.write(add("taken"))
+    with ThreadPoolExecutor(16) as pool:
+        futures = [pool.submit(database.write, add("taken" if number % 3 == 0 else str(number))) for number in range(90)]
+    failures = [future for future in futures if isinstance(future.exception(), IntegrityError)]
+    assert len(failures) == 30
+    assert count(database) == 1 + 60
+
+
+def test_what_a_failing_piece_had_written_is_undone(database):
+    def write_then_fail(session):
+        add("half")(session)
+        raise ValueError("on purpose")
+
+    with pytest.raises(ValueError, match="on purpose"):
+        database.write(write_then_fail)
+    assert count(database) == 0
+
+
+def test_acknowledged_rows_survive_opening_the_file_again(database, settings):
+    database.write(add("kept"))
+    again = Database(settings)
+    assert count(again) == 1
+    again.close()
+
+
+def test_writing_connections_wait_for_the_disk(database):
+    """FULL (2) is what survives a power cut; NORMAL lost acknowledged rows when it was tried."""
+    assert database.write(lambda session: session.scalar(text("PRAGMA synchronous"))) == 2
+    assert database.write(lambda session: session.scalar(text("PRAGMA journal_mode"))) == "wal"
+
+
+def test_readers_cannot_write(database):
+    with database.read() as session, pytest.raises(OperationalError, match="readonly"):
+        add("nobody")(session)
+
+
+def test_a_full_queue_says_so_at_once(settings):
+    engine = make_engine(settings.database_url, "write")
+    writer = Writer(engine, queue_length=1)
+    release, started = threading.Event(), threading.Event()
+
+    def hold(_):
+        started.set()
+        release.wait(10)
+
+    with ThreadPoolExecutor(2) as pool:
+        held = pool.submit(writer.run, hold)
+        started.wait(10)
+        waiting = pool.submit(writer.run, add("waits"))
+        while not writer._queue.full():
+            pass
+        with pytest.raises(WriterIsBusy):
+            writer.run(add("refused"))
+        release.set()
+        held.result(10)
+        assert waiting.result(10) == 1
+    writer.close()
+    with pytest.raises(WriterIsBusy):
+        writer.run(add("late"))
+    engine.dispose()
+
+
+def test_a_locked_file_is_an_error_for_everyone_in_the_group_and_nothing_is_stored(settings):
+    database = Database(settings, patience_ms=50)
+    other = make_engine(settings.database_url, "write")
+    with other.begin(), pytest.raises(OperationalError, match="locked"):
+        database.write(add("refused"))
+    assert count(database) == 0
+    assert database.write(add("later")) == 1, "it recovers by itself"
+    database.close()
+    other.dispose()
