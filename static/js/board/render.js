@@ -223,7 +223,7 @@ function drawPath({ context, geometry, world, view, theme }, index) {
     const [row, col] = placeOf(world, state);
     return /** @type {const} */ ([(col + 0.5 + shift) * cell, (row + 0.5 + shift) * cell]);
   });
-  const width = Math.max(1.25 * ratio, cell * (0.05 + 0.12 * (path.width ?? 0.4)));
+  const width = Math.max(1.75 * ratio, cell * (0.05 + 0.12 * (path.width ?? 0.4)));
   const opacity = path.opacity ?? 1;
   const colour = theme.who[path.who] ?? theme.inkDark;
   context.lineCap = "round";

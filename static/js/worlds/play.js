@@ -116,6 +116,7 @@ class PlayPage {
     this.#attempt = kept;
     const words = `Welcome back: you stood at step ${kept.actions.length}. Play on, or restart.`;
     byId("hint").textContent = words;
+    byId("hint").dataset.isUsual = "false";
     announce(words);
   }
 
@@ -134,7 +135,6 @@ class PlayPage {
     byId("result").dataset.outcome = outcome;
     byId("result-title").textContent = `${outcome === "success" ? "✓" : "✗"} ${title}`;
     byId("result-text").textContent = text;
-    byId("hint").textContent = "";
     this.#slot.dataset.shows = "result";
     if (outcome === "success") this.#board.hop();
     announce(`${title}. ${text} Enter plays again.`);

@@ -1,0 +1,45 @@
+import assert from "node:assert/strict";
+import test from "node:test";
+import { number, plural, signed } from "#js/lib/format.js";
+import { canRank, finishSentence, missingSentence } from "#js/worlds/sentences.js";
+
+test("numbers carry a true minus, and zero has no sign", () => {
+  assert.equal(number(-3.14), "\u22123.1");
+  assert.equal(number(-0.01), "0.0");
+  assert.equal(signed(4.25, 2), "+4.25");
+  assert.equal(signed(0), "0.0");
+  assert.equal(plural(1, "step"), "1 step");
+});
+
+test("a failure is counted with the same warmth as a success", () => {
+  const shared = { nSteps: 9, nSame: 3, nWanted: 3 };
+  assert.equal(
+    finishSentence({ outcome: "success", ending: "goal", total: 4.2, ...shared }).title,
+    "A success: 3 of 3",
+  );
+  assert.equal(
+    finishSentence({ outcome: "failure", ending: "gave_up", total: -2, ...shared }).title,
+    "A useful failure: 3 of 3",
+  );
+  assert.equal(
+    finishSentence({ outcome: "failure", ending: "gave_up", total: -2, ...shared, nSame: 4 }).title,
+    "A useful failure: number 4",
+  );
+});
+
+test("the sentence says how a failure ended", () => {
+  const text = (ending) =>
+    finishSentence({ outcome: "failure", ending, total: -3.1, nSteps: 98, nSame: 1, nWanted: 3 }).text;
+  assert.match(text("goal"), /cost more than the goal gave/);
+  assert.match(text("gave_up"), /stopped after 98 steps/);
+  assert.match(text("out_of_steps"), /All 98 steps/);
+});
+
+test("what is missing is said, and ranking opens with one of each", () => {
+  const say = (nSuccesses, nFailures) => missingSentence({ nSuccesses, nFailures, nWanted: 3 });
+  assert.equal(say(0, 0), "3 successes and 3 failures to go.");
+  assert.equal(say(3, 2), "1 failure to go. You can rank already.");
+  assert.match(say(3, 3), /complete/);
+  assert.ok(!canRank({ nSuccesses: 3, nFailures: 0 }));
+  assert.ok(canRank({ nSuccesses: 1, nFailures: 1 }));
+});
