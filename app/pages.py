@@ -55,7 +55,7 @@ def _kept_ids(session: Session, visitor_id: str, world_id: str) -> dict[str, set
     return kept
 
 
-def _latest_run(session: Session, visitor_id: str, world_id: str) -> "Row[tuple[str, str]] | None":
+def _latest_run(session: Session, visitor_id: str, world_id: str) -> "Row[str, str] | None":
     theirs = (Run.visitor_id == visitor_id, Run.world_id == world_id)
     return session.execute(select(Run.id, Run.status).where(*theirs).order_by(Run.created_at.desc()).limit(1)).first()
 

@@ -1,6 +1,6 @@
-"""What surrounds every request: headers, the body's size and form, other sites. Pure ASGI, so streams pass.
+"""What surrounds every request: headers, the body's size and form, other sites. Pure ASGI: streams pass.
 
-Outermost first: SecurityHeaders → VisitorCookie (visitors.py) → CrossSiteGuard → JsonBodies → UnexpectedErrors → routes.
+Outermost first: SecurityHeaders → VisitorCookie (visitors.py) → CrossSiteGuard → JsonBodies → UnexpectedErrors.
 """
 
 import json

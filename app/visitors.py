@@ -5,6 +5,7 @@ not marked. A forged or broken cookie counts as none.
 """
 
 import uuid
+from hashlib import sha256
 from http.cookies import SimpleCookie
 from typing import Annotated
 
@@ -82,17 +83,11 @@ class VisitorCookie:
 
     def _cookie(self, visitor_id: str) -> str:
         cookie = SimpleCookie({COOKIE: self.serializer.dumps(visitor_id)})
-        cookie[COOKIE].update({"path": "/", "max-age": str(COOKIE_AGE_S), "httponly": True, "samesite": "Lax"})
-        if self.https:
-            cookie[COOKIE]["secure"] = True
+        flags = {"path": "/", "max-age": COOKIE_AGE_S, "httponly": True, "samesite": "Lax", "secure": self.https}
+        for flag, value in flags.items():
+            cookie[COOKIE][flag] = value
         return cookie[COOKIE].OutputString()
 
 
-def sign(visitor_id: str, *, signing_key: str) -> str:
-    """The value of a visitor's cookie."""
-    signed: str | bytes = _serializer(signing_key).dumps(visitor_id)
-    return signed if isinstance(signed, str) else signed.decode()
-
-
-def _serializer(signing_key: str) -> "URLSafeSerializer[str]":
-    return URLSafeSerializer(signing_key, salt="visitor")
+def _serializer(signing_key: str) -> URLSafeSerializer:
+    return URLSafeSerializer(signing_key, salt="visitor", signer_kwargs={"digest_method": sha256})

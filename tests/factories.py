@@ -30,7 +30,9 @@ def post_demonstration(client: Client, world: dict[str, Any], body: dict[str, An
     return client.post(f"/api/v1/worlds/{world['id']}/demonstrations", json=body)
 
 
-def attempt(world: dict[str, Any], *, failed: bool = False, attempt_id: str | None = None, **changes: Any) -> dict[str, Any]:
+def attempt(
+    world: dict[str, Any], *, failed: bool = False, attempt_id: str | None = None, **changes: Any
+) -> dict[str, Any]:
     """The body of a demonstration; a change of None leaves the field out."""
     actions = [1] if failed else best_path(world)
     body = {

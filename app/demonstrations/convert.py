@@ -1,6 +1,6 @@
 """Rows ⇄ irl_core: the door of this room to the science."""
 
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -8,6 +8,7 @@ from app.demonstrations.schemas import DemonstrationIn
 from app.models import Demonstration as DemonstrationRow
 from app.worlds.convert import StoredWorld
 from irl_core import Demonstration, simulate
+from irl_core.types import DemonstrationOutcome, Ending
 
 
 def simulated_columns(stored: StoredWorld, told: DemonstrationIn) -> dict[str, Any]:
@@ -34,6 +35,6 @@ def demonstration_from_row(row: DemonstrationRow) -> Demonstration:
         actions=np.array(row.actions),
         rewards=np.array(row.rewards, dtype=np.float64),
         total=row.total,
-        outcome=row.outcome,
-        ending=row.ending,
+        outcome=cast("DemonstrationOutcome", row.outcome),
+        ending=cast("Ending", row.ending),
     )

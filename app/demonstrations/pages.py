@@ -60,7 +60,7 @@ def _play(
         is_saved = find_world(session, world.id) is not None
         demonstrations = demonstrations_json(queries.all_in_world(session, visitor_id, world.id))
         path = path_state(session, visitor_id, world.id, "play") if is_saved else PathState()
-    data = {"world": world.to_json(), "saved": is_saved, "demonstrations": demonstrations}
+    data: dict[str, Any] = {"world": world.to_json(), "saved": is_saved, "demonstrations": demonstrations}
     page = PlayPage(path=path, world=data["world"], is_front_door=is_front_door, data=data)
     return render(request, "worlds/play.html", page)
 

@@ -4,7 +4,8 @@ from datetime import datetime
 from typing import Annotated, Any, Literal
 from uuid import UUID
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, FailFast, Field
+from pydantic import BaseModel, BeforeValidator, ConfigDict, FailFast, Field, WithJsonSchema
+from pydantic_core import PydanticCustomError
 
 MOST_STEPS = 20_000
 """No world has a longer horizon: 2 · 100 · 100."""
@@ -13,8 +14,19 @@ LONGEST_STEP_MS = 86_400_000.0
 
 Action = Annotated[int, Field(ge=0, le=3, strict=True)]
 StepMs = Annotated[float, Field(ge=0, le=LONGEST_STEP_MS, strict=True, allow_inf_nan=False)]
-Id = Annotated[UUID, AfterValidator(str)]
-"""A UUID in any spelling; from here on a string, lower case with hyphens."""
+
+
+def _in_one_spelling(value: object) -> object:
+    if not isinstance(value, str):
+        return value
+    try:
+        return str(UUID(value))
+    except ValueError:
+        raise PydanticCustomError("uuid", "must be a UUID") from None
+
+
+Id = Annotated[str, BeforeValidator(_in_one_spelling), WithJsonSchema({"type": "string", "format": "uuid"})]
+"""A UUID in any spelling; from here on lower case with hyphens."""
 
 
 class DemonstrationIn(BaseModel):

@@ -37,7 +37,7 @@ def show_rank(request: Request, world: WorldFromPath, database: DatabaseFromApp,
         rows = all_in_world(session, visitor_id, world.id)
         newest = queries.newest(session, visitor_id, world.id)
         path = path_state(session, visitor_id, world.id, "rank")
-    data = {
+    data: dict[str, Any] = {
         "world": world.to_json(),
         "demonstrations": demonstrations_json(rows),
         "rankings": convert.rankings_out(newest).model_dump(mode="json"),

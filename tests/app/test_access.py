@@ -54,7 +54,7 @@ def routes(app) -> Iterator[tuple[str, str]]:
     while waiting:
         route = waiting.pop()
         if isinstance(route, APIRoute):
-            yield from ((method, route.path) for method in route.methods)
+            yield from ((method, route.path) for method in route.methods or ())
         elif hasattr(route, "original_router"):
             waiting.extend(route.original_router.routes)
 

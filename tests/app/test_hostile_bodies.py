@@ -46,9 +46,10 @@ RAW = {
     "a comment": b'{"seed": 1} // one',
     "single quotes": b"{'seed': 1}",
 }
-ODD_VALUES = [
+ODD_VALUES: list[object] = [
     None, True, False, 0, -1, 1.5, 1e308, 10**400, "", "x", "0", MARK, "\x00", [], [[]], [None], {}, {"a": 1},
-    [10**400], ["x"] * 1000, [True], [{}], {"id": "x"}, "8f14e45f-ceea-467f-a1d2-0c6f1f9b2a11\n", "\u202e", "é" * 10_000,
+    [10**400], ["x"] * 1000, [True], [{}], {"id": "x"}, "8f14e45f-ceea-467f-a1d2-0c6f1f9b2a11\n",
+    "\u202e", "é" * 10_000,
 ]  # fmt: skip
 TABLES = ("world", "visitor", "demonstration", "ranking", "run")
 
@@ -111,12 +112,20 @@ def test_odd_worlds_never_break_anything(client):
     for name in ("rows", "cols", "seed", "red_probability", "slip", "walls"):
         for value in ODD_VALUES:
             response = post_raw(client, "/api/v1/worlds", json.dumps({"seed": 1, name: value}).encode())
-            assert response.status_code == 201 or not assert_refused(response), (name, value)
+            if response.status_code != 201:
+                assert_refused(response)
 
 
 @pytest.mark.parametrize(
     "media_type",
-    ["text/plain", "application/x-www-form-urlencoded", "multipart/form-data; boundary=x", "application/jsonx", "", None],
+    [
+        "text/plain",
+        "application/x-www-form-urlencoded",
+        "multipart/form-data; boundary=x",
+        "application/jsonx",
+        "",
+        None,
+    ],
 )
 def test_another_media_type_is_415(client, media_type):
     headers = {} if media_type is None else {"Content-Type": media_type}

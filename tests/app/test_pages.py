@@ -16,6 +16,7 @@ from tests.factories import make_demonstration, make_ranking, make_world
 
 def island(page) -> dict:
     found = re.search(r'<script type="application/json" id="page-data"[^>]*>(.*?)</script>', page.text, re.DOTALL)
+    assert found, page.text[:200]
     return json.loads(found[1])
 
 

@@ -13,7 +13,7 @@ def world(client):
     return make_world(client)
 
 
-def put(client, world, order, outcome="success", confirmed=True):
+def put(client, world, order, *, outcome="success", confirmed=True):
     body = {"order": order, "confirmed": confirmed}
     return client.put(f"/api/v1/worlds/{world['id']}/rankings/{outcome}", json=body)
 

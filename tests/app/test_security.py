@@ -29,7 +29,7 @@ def test_every_answer_has_its_headers(client, url):
 
 def test_each_answer_has_a_nonce_of_its_own_and_its_scripts_carry_it(client):
     pages = [client.get("/docs") for _ in range(2)]
-    nonces = [re.search(r"'nonce-([^']+)'", page.headers["content-security-policy"])[1] for page in pages]
+    nonces = [page.headers["content-security-policy"].split("'nonce-")[1].split("'")[0] for page in pages]
     assert nonces[0] != nonces[1]
     for page, nonce in zip(pages, nonces, strict=True):
         scripts = re.findall(r"<script\b[^>]*>", page.text)
@@ -60,15 +60,15 @@ def test_looking_leaves_no_cookie_and_creating_does(client):
     assert "set-cookie" not in client.post("/api/v1/worlds", json={}).headers
 
 
-@pytest.mark.parametrize("change", ["", "x", "{}", "a.b", "é"])
+@pytest.mark.parametrize("change", ["", "x", "{}", "a.b", "é", "IjEi.x"])
 def test_a_forged_cookie_counts_as_none(client, app, change):
     world = make_world(client)
     make_demonstration(client, world)
     real = client.cookies[COOKIE]
     url = f"/api/v1/worlds/{world['id']}/demonstrations"
     assert len(open_client(app).get(url, headers={"Cookie": f"{COOKIE}={real}"}).json()) == 1
-    forged = change if change else real[:-1] + ("A" if real[-1] != "A" else "B")
-    assert open_client(app).get(url, headers={"Cookie": f"{COOKIE}={forged}".encode()}).json() == []
+    forged = change or real.swapcase()
+    assert open_client(app).get(url, headers={b"Cookie": f"{COOKIE}={forged}".encode()}).json() == []
 
 
 CROSS_SITE = [
