@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import pytest
 
 from tests import journey
-from tests.browser.server import LiveServer
+from tests.live_server import LiveServer
 
 
 @pytest.fixture(scope="module")

@@ -10,7 +10,7 @@ from urllib.parse import urlsplit
 import pytest
 from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Error, Page, Request
 
-from tests.browser.server import ROOT, LiveServer
+from tests.live_server import ROOT, LiveServer
 
 CHROMIUM_FLAGS = [
     "--no-sandbox",  # CI is root in a container
