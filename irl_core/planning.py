@@ -90,7 +90,8 @@ def soft_plan(world: World, reward: Reward, *, horizon: int | None = None) -> So
     if not np.isfinite(log_z[n_steps, world.start]):
         raise InvalidWorld(f"No goal can be reached within {n_steps} steps.", field="horizon")
     directions = next(_direction_laws(world, log_z[n_steps - 1 : n_steps]))[0].T
-    policy = _slip_mix(world, _uniform_where_nothing_is_ahead(directions))
+    # Contiguous, as it is when read back from JSON: sums over another layout differ in the last bit.
+    policy = np.ascontiguousarray(_slip_mix(world, _uniform_where_nothing_is_ahead(directions)))
     read_only(log_z)
     read_only(policy)
     return SoftPlan(float(log_z[n_steps, world.start]), policy, log_z)
