@@ -6,7 +6,7 @@ from app.comparisons import queries
 from app.comparisons.schemas import ComparisonOut, RolloutOut
 from app.learning.dependencies import RunFromPath
 
-router = APIRouter(tags=["comparisons"])
+router = APIRouter(prefix="/api/v1", tags=["comparisons"])
 
 
 @router.get("/runs/{run_id}/comparison", summary="Compare")

@@ -18,7 +18,7 @@ from app.models import Run
 from app.visitors import Visitor, VisitorOrNone, remember
 from app.worlds.dependencies import WorldFromPath
 
-router = APIRouter(tags=["runs"])
+router = APIRouter(prefix="/api/v1", tags=["runs"])
 
 STREAM_HEADERS = {"Cache-Control": "no-cache, no-transform", "X-Accel-Buffering": "no"}
 

@@ -11,8 +11,11 @@ from irl_core import write_demonstration_file
 
 def demonstration_file(session: Session, run: Run) -> str:
     """Write the world, demonstrations and rankings of a run as JSON lines."""
+    rows = queries.demonstrations_of(session, run)
     return write_demonstration_file(
         queries.world_of(session, run).world,
-        [demonstration_from_row(row) for row in queries.demonstrations_of(session, run)],
+        [demonstration_from_row(row) for row in rows],
         to_rankings(run.rankings),
+        world_id=run.world_id,
+        more={row.id: {"step_ms": row.step_ms, "created_at": row.created_at.isoformat()} for row in rows},
     )
