@@ -29,12 +29,12 @@ EVERYBODY = {
     ("GET", "/api/v1/worlds/{world_id}/demonstrations"): (200, 200, 200),
     ("GET", "/api/v1/worlds/{world_id}/rankings"): (200, 200, 200),
     ("GET", "/api/v1/worlds/{world_id}/runs"): (200, 200, 200),
+    ("POST", "/api/v1/worlds/{world_id}/runs"): (422, 202, 202),  # each of what they have played themselves
 }
 OWNER_ONLY = {
     ("PUT", "/api/v1/demonstrations/{demonstration_id}/discard"): (404, 200, 404),
     ("DELETE", "/api/v1/demonstrations/{demonstration_id}/discard"): (404, 200, 404),
     ("PUT", "/api/v1/worlds/{world_id}/rankings/{outcome}"): (422, 200, 422),
-    ("POST", "/api/v1/worlds/{world_id}/runs"): (422, 202, 422),
     ("GET", "/worlds/{world_id}/compare"): (303, 303, 303),
     ("GET", "/api/v1/runs/{run_id}"): (404, 200, 404),
     ("GET", "/api/v1/runs/{run_id}/events"): (404, 204, 404),
