@@ -15,6 +15,7 @@ const RIGHT = 18;
  * @property {Entry} entry
  * @property {number} y
  * @property {number} mean x of the marker
+ * @property {boolean} isOffScale the mean lies left of the axis
  * @property {[number, number] | null} interval x of both ends
  * @property {number | null} expected
  * @property {number | null} greedy
@@ -45,8 +46,9 @@ export function layOutDotPlot(entries, width) {
   const right = width - RIGHT;
   const optimum = entries.find((entry) => entry.who === "optimal");
   const optimal = optimum ? (optimum.expected_return ?? optimum.mean_return) : null;
-  const domain = roundDomain([0, ...entries.flatMap(extentOf), ...(optimal === null ? [] : [optimal])]);
-  const x = linearScale(domain, [left, right]);
+  const domain = domainOf([0, ...entries.flatMap(extentOf), ...(optimal === null ? [] : [optimal])]);
+  const exact = linearScale(domain, [left, right]);
+  const x = (/** @type {number} */ value) => Math.max(left, exact(value));
   const bottom = TOP + entries.length * ROW_HEIGHT;
   return {
     width,
@@ -59,6 +61,7 @@ export function layOutDotPlot(entries, width) {
       entry,
       y: TOP + (i + 0.5) * ROW_HEIGHT,
       mean: x(entry.mean_return),
+      isOffScale: entry.mean_return < domain[0],
       interval: intervalOf(entry, x),
       expected: entry.expected_return === null ? null : x(entry.expected_return),
       greedy: entry.greedy_return === null ? null : x(entry.greedy_return),
@@ -70,6 +73,16 @@ export function layOutDotPlot(entries, width) {
     zero: domain[0] < 0 && domain[1] > 0 ? x(0) : null,
     optimum: optimal === null ? null : x(optimal),
   };
+}
+
+/**
+ * One attempt that lost without end would press everybody else into a point: what lies further below zero than twice the
+ * best figure above it is cut off and marked as such.
+ * @param {number[]} values
+ */
+function domainOf(values) {
+  const floor = -2 * Math.max(1, ...values);
+  return roundDomain(Math.max(...values) > 0 ? values.map((value) => Math.max(floor, value)) : values);
 }
 
 /** @param {Entry} entry */

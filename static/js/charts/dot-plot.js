@@ -67,7 +67,7 @@ function axis(layout) {
  * @param {DotRow} row
  * @param {DotPlotLayout} layout
  */
-function rowGroup({ entry, y, mean, interval, expected, greedy }, layout) {
+function rowGroup({ entry, y, mean, isOffScale, interval, expected, greedy }, layout) {
   const group = svgElement("g", { class: "dot-plot-row", "data-who": entry.who });
   group.append(
     svgElement("path", { class: "dot-plot-key", d: markerPath(walker(entry.who).shape, 8, y, 5.5) }),
@@ -78,6 +78,11 @@ function rowGroup({ entry, y, mean, interval, expected, greedy }, layout) {
     group.append(
       svgElement("path", { class: "dot-plot-greedy", d: markerPath(walker(entry.who).shape, greedy, y, 5) }),
     );
+  }
+  if (isOffScale) {
+    const text = `◂ ${figure(entry.mean_return)}`;
+    group.append(svgElement("text", { class: "dot-plot-off", x: layout.left + 4, y: y + 4.5 }, text));
+    return group;
   }
   if (interval) {
     const [from, to] = interval;

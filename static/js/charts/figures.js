@@ -37,9 +37,10 @@ export function withError(mean, standardError) {
   return standardError ? `${figure(mean)} ± ${figure(standardError)}` : figure(mean);
 }
 
-/** @param {number | null | undefined} share of 1 */
+/** "61 %"; a share below nothing has no meaning as a part. @param {number | null | undefined} share of 1 */
 export function percent(share) {
-  return share === null || share === undefined || !Number.isFinite(share) ? "–" : `${figure(100 * share, 0)} %`;
+  if (share === null || share === undefined || !Number.isFinite(share)) return "–";
+  return share < 0 ? "below 0" : `${figure(100 * share, 0)} %`;
 }
 
 /**

@@ -20,7 +20,7 @@ export class AgentPanel {
    * @param {{ entry: Entry, world: World, result: Result | undefined, unknown: boolean[] | null }} agent
    */
   constructor(template, { entry, world, result, unknown }) {
-    const copy = /** @type {DocumentFragment} */ (template.content.cloneNode(true));
+    const copy = document.importNode(template.content, true);
     this.element = /** @type {HTMLElement} */ (copy.firstElementChild);
     this.entry = entry;
     this.world = world;

@@ -21,21 +21,18 @@ export function resultSentence(entries) {
 }
 
 /**
- * What stands behind the first sentence: who else did better than the person, and their best attempt.
+ * What stands behind the first sentence: what the person's figure is, their best attempt, who else did better.
  * @param {Entry[]} entries
  * @param {number[]} attemptTotals of the ranked demonstrations
  */
 export function backgroundSentence(entries, attemptTotals) {
   const human = entries.find((entry) => entry.who === "human");
-  const learners = learnersByPlace(entries);
-  if (!human || learners.length === 0) return "";
-  const best = attemptTotals.length > 1 ? ` Your best attempt earned ${figure(Math.max(...attemptTotals))}.` : "";
+  if (!human) return "";
   const count = attemptTotals.length || human.episodes;
-  const mean =
-    count === 1
-      ? "Your figure is your one attempt"
-      : `Your figure is the mean of all ${count} attempts, failures included`;
-  return `${mean}.${best} ${headCount(learners, human)}`.trim();
+  if (count === 1) return `Your figure is your one attempt.${headCount(learnersByPlace(entries), human, "it")}`;
+  const mean = `Your figure is the mean of all ${count} attempts, failures included.`;
+  const best = attemptTotals.length > 0 ? ` Your best attempt alone earned ${figure(Math.max(...attemptTotals))}.` : "";
+  return mean + headCount(learnersByPlace(entries), human, "that mean") + best;
 }
 
 /**
@@ -76,14 +73,14 @@ function optimumSentence(optimum) {
 /**
  * @param {Entry[]} learners
  * @param {Entry} human
+ * @param {string} figureName
  */
-function headCount(learners, human) {
+function headCount(learners, human, figureName) {
   const better = learners.filter((entry) => against(entry, human) > 0).length;
-  const of = learners.length;
-  if (of === 1) return "";
-  if (better === of) return "Every learner earned more than that.";
-  if (better === 0) return "";
-  return `${better} of ${of} learners earned more than that.`;
+  if (learners.length < 2 || better === 0) return "";
+  return better === learners.length
+    ? ` Every learner earned more than ${figureName}.`
+    : ` ${better} of ${learners.length} learners earned more than ${figureName}.`;
 }
 
 /**

@@ -78,8 +78,9 @@ export class ComparePage extends HTMLElement {
     this.#schedule();
   }
 
+  /** @returns {Entry[]} by place, the person spoken to as "You" */
   get #entries() {
-    return this.#data.comparison.entries;
+    return this.#data.comparison.entries.map((entry) => (entry.who === "human" ? { ...entry, title: "You" } : entry));
   }
 
   /** @returns {Rollouts} the person's are their attempts as they were recorded */
@@ -166,16 +167,15 @@ export class ComparePage extends HTMLElement {
       belief.highest.textContent = `+${figure(largest)}`;
       return belief.element;
     });
-    truth.ramp.textContent = `red: −7 … −1 · blue: −1 … 0 · goal +${world.rows + world.cols}`;
+    truth.ramp.classList.add("ramp--words");
+    truth.ramp.textContent = `deeper is dearer; goal +${world.rows + world.cols}`;
     this.#part("beliefs").replaceChildren(truth.element, ...boards);
   }
 
   /** @param {string} title @param {string | null} who @param {string} label */
   #belief(title, who, label) {
     const template = /** @type {HTMLTemplateElement} */ (this.querySelector("#belief"));
-    const element = /** @type {HTMLElement} */ (
-      /** @type {DocumentFragment} */ (template.content.cloneNode(true)).firstElementChild
-    );
+    const element = /** @type {HTMLElement} */ (document.importNode(template.content, true).firstElementChild);
     const part = (/** @type {string} */ name) =>
       /** @type {HTMLElement} */ (element.querySelector(`[data-part="${name}"]`));
     const board = /** @type {IrlBoard} */ (element.querySelector("irl-board"));
@@ -183,6 +183,8 @@ export class ComparePage extends HTMLElement {
     if (who) {
       element.dataset.who = who;
       part("marker").replaceWith(marker(who));
+    } else {
+      part("marker").remove();
     }
     board.world = this.#data.world;
     board.label = label;
@@ -239,7 +241,7 @@ export class ComparePage extends HTMLElement {
 
   /** @param {string} name */
   #isOn(name) {
-    return /** @type {HTMLInputElement} */ (this.querySelector(`.transport input[name="${name}"]`)).checked;
+    return /** @type {HTMLInputElement} */ (this.querySelector(`.transport-options input[name="${name}"]`)).checked;
   }
 
   /** A named part of the markup; which element it is stands in the template. @param {string} name @returns {any} */

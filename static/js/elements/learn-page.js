@@ -278,7 +278,8 @@ export class LearnPage extends HTMLElement {
     const play = this.#part("play-back");
     play.disabled = isEmpty;
     play.setAttribute("aria-pressed", String(isPlaying));
-    this.#setText("play-glyph", isPlaying ? "❚❚" : "▶");
+    this.#part("play-icon").hidden = isPlaying;
+    this.#part("pause-icon").hidden = !isPlaying;
     this.#setText("play-word", isPlaying ? "Pause" : "Play back");
     this.dataset.iteration = String(position);
   }

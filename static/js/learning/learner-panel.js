@@ -21,7 +21,7 @@ export class LearnerPanel {
    * @param {boolean[]} unknown squares that no demonstration this learner uses came to
    */
   constructor(template, learner, world, unknown) {
-    const copy = /** @type {DocumentFragment} */ (template.content.cloneNode(true));
+    const copy = document.importNode(template.content, true);
     this.element = /** @type {HTMLElement} */ (copy.firstElementChild);
     this.learner = learner;
     this.world = world;
@@ -63,7 +63,7 @@ export class LearnerPanel {
     const bar = /** @type {HTMLProgressElement} */ (this.element.querySelector("progress"));
     bar.value = share;
     bar.setAttribute("aria-label", `${this.learner.title} has learned`);
-    this.#part("line").textContent = line;
+    this.#part("line").textContent = stage === "waiting" ? "" : line;
     this.#part("outcome").textContent = outcome;
     if (stage === "waiting") this.#part("cover").textContent = line;
   }

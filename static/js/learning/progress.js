@@ -96,7 +96,7 @@ export class RunProgress {
     if (frame) return `iteration ${frame.iteration} of ${frame.iterations} · ${gapInWords(frame.gap)}`;
     if (stage === "learned") return gapInWords(this.#results.get(learner)?.gap ?? Number.NaN);
     if (stage === "ended") return "not reached";
-    return this.#status === "queued" ? "waiting for a free worker" : `waiting its turn`;
+    return this.#status === "queued" ? "waiting for a free worker" : "waiting its turn";
   }
 
   /**
