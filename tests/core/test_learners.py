@@ -165,18 +165,22 @@ def test_a_complete_tie_makes_ranking_learners_the_unranked_ones():
         np.testing.assert_array_equal(learn(ranking, tied).reward, learn(plain, tied).reward)
 
 
-def test_a_reward_that_matches_the_successes_is_a_fixed_point_of_irlf_whatever_the_failures():
-    """PAPER: w_D absorbs what w_F adds. With μ^π = μ̃ᴰ the step on w_D is 0, w_F is (μ̃ᴰ − μ̃ᶠ)/λ, and their sum stays."""
-    problem = small_problem(lambda_start=3.0, lambda_decay=1.0, lambda_min=3.0, tolerance=1e-12)
+@pytest.mark.parametrize("lam", [0.1, 3.0, 10.0])
+def test_a_reward_that_matches_the_successes_is_a_fixed_point_of_irlf_whatever_the_failures(lam):
+    """PAPER: w_D absorbs what w_F adds. With μ^π = μ̃ᴰ the step on w_D is 0 and w_F stays at (μ̃ᴰ − μ̃ᶠ) / λ.
+
+    One iteration is asked for: at small λ the point is there, but the iteration flees from it.
+    """
+    problem = small_problem(lambda_start=lam, lambda_decay=1.0, lambda_min=lam, tolerance=1e-12)
     reward = np.random.default_rng(0).normal(-1.0, 0.5, 9)
     matched = visitation(problem.world, soft_plan(problem.world, reward))
     failed = descent.aims_of(problem, uses_ranking=True, uses_failures=True).failures
     aims = descent.Aims(matched + 1e-11, failed, 0.0)  # just enough of a gap to go on
-    w_failure = (matched - failed) / 3.0
-    state = LearningState("irlf", 0, reward - w_failure, w_failure, 3.0)
-    later = descent.advance(problem, state, aims, iterations=50)
-    assert later.iteration == 50
-    np.testing.assert_allclose(later.reward, reward, atol=1e-9)
+    w_failure = (matched - failed) / lam
+    state = LearningState("irlf", 0, reward - w_failure, w_failure, lam)
+    later = descent.advance(problem, state, aims, iterations=1)
+    assert later.iteration == 1
+    np.testing.assert_allclose(later.reward, reward, atol=1e-10)
 
 
 @pytest.mark.parametrize(("name", "twin"), [("irlf", "meirl"), ("irlfr", "irlr")])
