@@ -9,11 +9,9 @@ from fastapi import APIRouter, Request
 from pydantic import BaseModel, Field
 from starlette.responses import Response
 
-from app.pages import PathState, render
+from app.pages import render
 
 router = APIRouter(include_in_schema=False)
-
-METHODS = ("get", "post", "put", "delete")
 
 
 class ErrorBody(BaseModel):
@@ -62,7 +60,7 @@ class DocsPage:
     """Where a programmer reads what the API can do."""
 
     groups: dict[str, list[Call]] = field(metadata={"help": "The calls by room."})
-    path: PathState = field(default_factory=PathState, metadata={"help": "Nowhere on the path."})
+    path: None = field(default=None, metadata={"help": "Nowhere on the path from Play to Compare."})
 
 
 @router.get("/docs", response_model=None)
@@ -75,10 +73,9 @@ def calls_by_group(schema: Mapping[str, Any]) -> dict[str, list[Call]]:
     """Read the calls out of the OpenAPI schema, in its order."""
     groups: dict[str, list[Call]] = {}
     for url, operations in schema["paths"].items():
-        for method in METHODS:
-            if method in operations:
-                group = operations[method].get("tags", ["other"])[0]
-                groups.setdefault(group, []).append(_call(schema, method, url, operations[method]))
+        for method, operation in operations.items():
+            group = operation.get("tags", ["other"])[0]
+            groups.setdefault(group, []).append(_call(schema, method, url, operation))
     return groups
 
 

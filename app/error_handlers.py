@@ -17,7 +17,6 @@ from starlette.responses import HTMLResponse, Response
 
 from app.errors import AppError, Unavailable, Unprocessable, error_json
 from app.kit.writer import WriterIsBusy
-from app.pages import PathState
 from irl_core import IrlError
 
 logger = logging.getLogger(__name__)
@@ -33,7 +32,7 @@ class ErrorPage:
     status: int = field(metadata={"help": "The HTTP status."})
     title: str = field(metadata={"help": "Two or three words."})
     message: str = field(metadata={"help": "What was wrong and what would be right, in a sentence."})
-    path: PathState = field(default_factory=PathState, metadata={"help": "Where the person stands: nowhere yet."})
+    path: None = field(default=None, metadata={"help": "Nowhere on the path from Play to Compare."})
 
 
 def add_error_handlers(app: FastAPI) -> None:

@@ -63,15 +63,15 @@ class DemonstrationOut(BaseModel):
     id: str
     world_id: str
     states: list[int] = Field(description="The squares visited, the start included: one more than actions.")
-    actions: list[int]
+    actions: list[int] = Field(description="0 up, 1 right, 2 down, 3 left, as intended; slips show in the states.")
     rewards: list[float] = Field(description="The reward of each square reached.")
-    total: float
+    total: float = Field(description="The sum of the rewards.")
     outcome: str = Field(description='"success": reached the goal with total ≥ 0; "failure": everything else.')
-    ending: str
-    step_ms: list[float] | None
-    discarded: bool
-    created_at: datetime
-    parent_id: str | None = None
+    ending: str = Field(description='"goal", "gave_up" or "out_of_steps".')
+    step_ms: list[float] | None = Field(description="Milliseconds each step took.")
+    discarded: bool = Field(description="Left out of ranking and learning.")
+    created_at: datetime = Field(description="When it was first received, in UTC.")
+    parent_id: str | None = Field(default=None, description="Reserved: null.")
 
     @classmethod
     def of(cls, row: Any) -> "DemonstrationOut":  # noqa: ANN401 - a model or a row of the same columns

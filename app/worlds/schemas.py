@@ -72,17 +72,17 @@ class WorldQuery(BaseModel):
 class WorldOut(BaseModel):
     """A world: its squares are numbered row by row from 0."""
 
-    id: str
+    id: str = Field(description="Made from the parameters: the same world always has the same id.")
     rows: int
     cols: int
-    start: int
-    goal: int
-    goals: list[int]
-    walls: list[int]
+    start: int = Field(description="The square where every attempt begins.")
+    goal: int = Field(description="The square where it ends.")
+    goals: list[int] = Field(description="All squares where it ends.")
+    walls: list[int] = Field(description="Squares that cannot be entered.")
     rewards: list[list[float]] = Field(description="rows × cols: the reward of reaching each square.")
     colours: list[list[str]] = Field(description='rows × cols: "red", "blue", "goal" or "wall".')
-    seed: int | None
-    red_probability: float | None
-    slip: float
+    seed: int | None = Field(description="Gives this world again, with the other parameters.")
+    red_probability: float | None = Field(description="The probability with which each square was made red.")
+    slip: float = Field(description="The probability that a step goes in one of the three other directions.")
     horizon: int = Field(description="The most steps an attempt may have, and the horizon of planning.")
-    success_possible: bool
+    success_possible: bool = Field(description="Whether any attempt can reach the goal with a total of 0 or more.")

@@ -93,3 +93,10 @@ def test_what_another_site_sends_is_not_carried_out(client, headers):
 @pytest.mark.parametrize("headers", [{}, {"Origin": "http://testserver"}, {"Sec-Fetch-Site": "same-origin"}])
 def test_our_own_pages_and_programs_may(client, headers):
     assert client.post("/api/v1/worlds", json={}, headers=headers).status_code == 201
+
+
+def test_files_with_a_version_are_kept_and_the_others_asked_for_again(client):
+    for query, kept in (("", "no-cache"), ("?v=1", "public, max-age=31536000, immutable")):
+        response = client.get(f"/static/css/base.css{query}")
+        assert response.status_code == 200
+        assert response.headers["cache-control"] == kept
