@@ -169,7 +169,7 @@ function drawFlag({ context, geometry, world, theme, view, look }, state) {
     const inset = context.lineWidth / 2;
     context.strokeRect(col * cell + inset, row * cell + inset, cell - 2 * inset, cell - 2 * inset);
   }
-  if (cell < 7) return;
+  if (cell < 7 * ratio) return drawDot(context, at(0.5, 0.5), { gold, ink: theme.inkDark, ratio });
   context.strokeStyle = ink;
   context.fillStyle = ink;
   context.lineCap = "round";
@@ -184,6 +184,20 @@ function drawFlag({ context, geometry, world, theme, view, look }, state) {
   context.lineTo(...at(0.36, 0.48));
   context.closePath();
   context.fill();
+}
+
+/** Where a flag would be too small to see, a gold dot larger than the square. @param {CanvasRenderingContext2D} context @param {readonly [number, number]} centre @param {{gold: string, ink: string, ratio: number}} look */
+function drawDot(context, [x, y], { gold, ink, ratio }) {
+  const radius = Math.min(5 * ratio, context.canvas.width / 12);
+  const inside = (/** @type {number} */ at, /** @type {number} */ size) =>
+    Math.min(Math.max(at, radius), size - radius);
+  context.beginPath();
+  context.arc(inside(x, context.canvas.width), inside(y, context.canvas.height), radius - ratio, 0, 2 * Math.PI);
+  context.fillStyle = gold;
+  context.fill();
+  context.strokeStyle = ink;
+  context.lineWidth = ratio;
+  context.stroke();
 }
 
 /** Discs whose area is proportional to the visits. @param {Scene} scene */

@@ -56,6 +56,8 @@ function readTheme() {
   // A custom property keeps its `light-dark()` unresolved; the colour of an element does not.
   const probe = document.createElement("i");
   probe.hidden = true;
+  // The colours of the board are its data: a forced palette must not flatten them.
+  probe.style.setProperty("forced-color-adjust", "none");
   document.body.append(probe);
   const read = (/** @type {string} */ token) => {
     probe.style.color = `var(${token})`;

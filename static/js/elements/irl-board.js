@@ -42,6 +42,8 @@ export class IrlBoard extends HTMLElement {
     if (!this.#stage.isConnected) {
       this.#stage.append(this.#squares, this.#ink, this.#agents);
       this.#stage.setAttribute("aria-hidden", "true");
+      // A clone of a board brings a copy of the other's stage along, empty as cloned canvases are.
+      this.querySelector(".board-stage")?.remove();
       this.prepend(this.#stage);
     }
     if (!this.hasAttribute("role")) this.setAttribute("role", "img");

@@ -93,9 +93,12 @@ export class CardList {
     for (const [id, weight] of theta) {
       const card = this.#cards.get(id);
       if (!card) continue;
-      find(card, ".card-theta").textContent = number(weight, 2);
-      find(card, ".card-bar-fill").style.inlineSize = `${(100 * weight) / largest}%`;
       card.dataset.weight = weight.toFixed(6);
+      for (const one of [card, flyingCopyOf(card)]) {
+        if (!one) continue;
+        find(one, ".card-theta").textContent = number(weight, 2);
+        find(one, ".card-bar-fill").style.inlineSize = `${(100 * weight) / largest}%`;
+      }
     }
   }
 
@@ -112,6 +115,7 @@ export class CardList {
       preventOnFilter: false,
       ghostClass: "card--ghost",
       fallbackClass: "card--flying",
+      onStart: ({ item }) => fillFlying(item),
       onChange: ({ item, newDraggableIndex }) => {
         this.#showWeights(move(this.#order, item.dataset.demonstrationId ?? "", newDraggableIndex ?? 0));
       },
@@ -129,6 +133,22 @@ function isNoGrip(event) {
   if (target?.closest("button")) return true;
   const isTouch = event instanceof TouchEvent || (event instanceof PointerEvent && event.pointerType === "touch");
   return isTouch && !target?.closest(".card-grip");
+}
+
+/** The copy that follows the pointer while its card is dragged. @param {HTMLElement} card @returns {HTMLElement | null} */
+function flyingCopyOf(card) {
+  const copy = /** @type {HTMLElement | null} */ (document.querySelector(".card--flying"));
+  return copy !== card && copy?.dataset.demonstrationId === card.dataset.demonstrationId ? copy : null;
+}
+
+/** A copied board is empty: give it what the card's own board shows. @param {HTMLElement} card */
+function fillFlying(card) {
+  const copy = flyingCopyOf(card);
+  if (!copy) return;
+  const [from, to] = [card, copy].map((one) => /** @type {IrlBoard} */ (find(one, "irl-board")));
+  if (!from || !to) return;
+  to.world = from.world;
+  to.view = from.view;
 }
 
 /** @param {HTMLTemplateElement} template @param {import("#js/board/state.js").World} world @param {Demonstration} demonstration */

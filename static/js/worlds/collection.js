@@ -157,6 +157,7 @@ export class Collection {
     byId(outcome === "success" ? "n-successes" : "n-failures").textContent = String(n);
     const words = document.querySelector(`#tally [data-outcome="${outcome}"]`);
     words?.setAttribute("data-full", String(n >= this.#nWanted));
+    words?.querySelector(".tally-wanted")?.toggleAttribute("hidden", n > this.#nWanted);
   }
 
   #showSync() {

@@ -185,7 +185,7 @@ class PlayPage {
   #speak(before = "") {
     const cost = this.#attempt.rewards.at(-1);
     const paid = cost === undefined || before ? "" : `${signed(cost)}. `;
-    const total = `Total ${number(totalOf(this.#attempt))}. `;
+    const total = ` Total ${number(totalOf(this.#attempt))}.`;
     announce(before + paid + describePosition(this.#world, stateOf(this.#attempt)) + total);
   }
 
