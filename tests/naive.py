@@ -1,4 +1,4 @@
-"""Slow, obvious twins of irl_core, written as the formulas read. They share no code with it but the World's plain fields."""
+"""Slow, obvious twins of irl_core, written as the formulas read; of its code they use the World's plain fields only."""
 
 import math
 from collections.abc import Iterator
@@ -62,7 +62,7 @@ class Enumeration:
 
 
 def enumerate_paths(world, reward, *, start, horizon):
-    """log Z, expected visits and the distribution of the first action, by adding up all paths."""
+    """The log of Z, expected visits and the distribution of the first action, by adding up all paths."""
     Z, visits, first = 0.0, np.zeros(world.rows * world.cols), np.zeros(4)
     for path in paths(world, reward, start=start, horizon=horizon):
         Z += path.weight
@@ -76,7 +76,7 @@ def enumerate_paths(world, reward, *, start, horizon):
 
 
 def dense_gradient(world, reward, *, horizon):
-    """log Z and expected visits with T[s, a, s′] in readable NumPy: backward weights, posterior law, forward visits."""
+    """The log of Z and expected visits, in readable NumPy: backward weights, posterior law, forward visits."""
     T, goals = transitions(world), list(world.goals)
     n = len(reward)
     Z = np.zeros((horizon + 1, n))

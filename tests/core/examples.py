@@ -1,8 +1,11 @@
 """Small worlds, and people who play them, for the tests of irl_core."""
 
+from itertools import pairwise
+
 import numpy as np
 
 from irl_core import (
+    Demonstration,
     LearningProblem,
     Ranking,
     Settings,
@@ -39,16 +42,17 @@ SMALL_WORLDS = {
 }
 
 
-def attempt(world, states, *, id):
+def attempt(world, states, *, id_):
     """The demonstration that walks these squares (no slip)."""
-    actions = [int(np.flatnonzero(world.next_states[s] == t)[0]) for s, t in zip(states, states[1:], strict=False)]
-    return simulate(world, actions, attempt_id=id)
+    actions = [int(np.flatnonzero(world.next_states[s] == t)[0]) for s, t in pairwise(states)]
+    return simulate(world, actions, attempt_id=id_)
 
 
 def play_like_a_person(world, *, seed=0, n_successes=3, n_failures=3):
     """Attempts of somebody who overlooks half of the rewards: best success first, worst failure first."""
     rng = np.random.default_rng(seed)
-    successes, failures = [], []
+    successes: list[Demonstration] = []
+    failures: list[Demonstration] = []
     for k in range(500):
         seen = np.where(rng.random(world.n_states) < 0.5, world.reward, -1.0)
         plan = hard_plan(world, seen, must_reach_goal=True)
@@ -67,9 +71,8 @@ def play_like_a_person(world, *, seed=0, n_successes=3, n_failures=3):
 def ranked(successes, failures):
     """Both rankings, in the order given."""
     return [
-        Ranking(outcome, tuple((one.id,) for one in listed))
-        for outcome, listed in (("success", successes), ("failure", failures))
-        if listed
+        *([Ranking("success", tuple((one.id,) for one in successes))] if successes else []),
+        *([Ranking("failure", tuple((one.id,) for one in failures))] if failures else []),
     ]
 
 
@@ -83,5 +86,5 @@ def make_problem(*, seed=0, world=None, rankings=None, **settings):
 
 def _plan_actions(world, plan, rng):
     episode = rollouts(world, plan, 1, rng)[0]
-    for s, t in zip(episode.states, episode.states[1:], strict=False):
+    for s, t in pairwise(episode.states):
         yield np.flatnonzero(world.next_states[s] == t)[0]

@@ -113,6 +113,7 @@ def test_a_success_may_need_rewards_collected_on_a_loop():
 def test_a_playable_world_is_drawn_and_its_seed_is_on_record():
     world = draw_playable_world(1, red_probability=0.6)
     assert success_is_possible(world)
+    assert world.seed is not None
     assert world == generate_world(world.seed, red_probability=0.6)
     assert world == draw_playable_world(np.random.default_rng(1), red_probability=0.6)
 

@@ -42,8 +42,8 @@ def test_what_is_no_order_is_refused(groups):
 
 def test_a_ranking_is_of_successes_or_failures():
     with pytest.raises(InvalidRanking, match='"success" or "failure"'):
-        Ranking("wins", (("a",),))
-    assert Ranking("success", [["a", "b"], ["c"]]).ids == ("a", "b", "c")
+        Ranking("wins", (("a",),))  # type: ignore[arg-type]
+    assert Ranking("success", (("a", "b"), ("c",))).ids == ("a", "b", "c")
 
 
 def test_by_hand_feature_counts_are_sums_over_time_with_start_and_goal():
