@@ -1,0 +1,79 @@
+import assert from "node:assert/strict";
+import test from "node:test";
+import { describeMaterial, isOutdated, untouched, wayThere, weighted } from "#js/learning/material.js";
+import { readSetting } from "#js/learning/settings.js";
+import { makeWorld } from "./factories.js";
+
+const world = makeWorld([
+  [-0.5, -0.5],
+  [-3, 4],
+]);
+const attempt = (id, outcome, states, more = {}) => ({
+  id,
+  outcome,
+  states,
+  discarded: false,
+  created_at: "2027-01-01T10:00:00Z",
+  ...more,
+});
+const success = attempt("a", "success", [0, 1, 3]);
+const other = attempt("b", "success", [0, 1, 0, 1, 3]);
+const failure = attempt("c", "failure", [0, 2]);
+const ranking = (outcome, order, weights) => ({
+  outcome,
+  order,
+  weights,
+  version: 1,
+  confirmed: true,
+  created_at: "2027-01-01T11:00:00Z",
+});
+
+test("squares only a failure touched are unknown to learners that do not look at failures", () => {
+  assert.deepEqual(untouched(world, [success, failure], { uses_failures: false }), [false, false, true, false]);
+  assert.deepEqual(untouched(world, [success, failure], { uses_failures: true }), [false, false, false, false]);
+});
+
+test("weights come from the ranking, heaviest first", () => {
+  const rankings = { success: ranking("success", [["b"], ["a"]], { a: 1 / 3, b: 2 / 3 }), failure: null };
+  assert.deepEqual(
+    weighted([success, other], rankings, "success").map(({ demonstration, weight }) => [demonstration.id, weight]),
+    [
+      ["b", 2 / 3],
+      ["a", 1 / 3],
+    ],
+  );
+});
+
+test("a ranking that misses an attempt does not count", () => {
+  const rankings = { success: ranking("success", [["a"]], { a: 1 }), failure: null };
+  assert.deepEqual(
+    weighted([success, other], rankings, "success").map(({ weight }) => weight),
+    [0.5, 0.5],
+  );
+  assert.equal(
+    describeMaterial([success, other, failure], rankings),
+    "2 successes and 1 failure, the successes not in order yet.",
+  );
+});
+
+test("a run is old once something was played or ranked after it", () => {
+  const rankings = { success: ranking("success", [["a"]], { a: 1 }), failure: null };
+  assert.equal(isOutdated({ created_at: "2027-01-01T12:00:00Z" }, [success], rankings), false);
+  assert.equal(isOutdated({ created_at: "2027-01-01T10:30:00Z" }, [success], rankings), true);
+});
+
+test("who misses attempts is led to play, who misses the order is led to rank", () => {
+  assert.equal(wayThere(world, [], { uses_failures: false }).href, "/worlds/world");
+  assert.equal(wayThere(world, [success, other], { uses_failures: false }).href, "/worlds/world/rank");
+});
+
+test("a setting is read, or refused with what would be right", () => {
+  const alpha = { name: "learning_rate", symbol: "α", default: 0.1, minimum: 0, maximum: 10, help: "" };
+  assert.deepEqual(readSetting(alpha, " 0,25 "), { value: 0.25, problem: "" });
+  assert.deepEqual(readSetting(alpha, ""), { value: 0.1, problem: "" });
+  assert.equal(readSetting(alpha, "eleven").problem, "A number from 0 to 10 is needed here.");
+  assert.equal(
+    readSetting({ ...alpha, name: "iterations", maximum: 1000 }, "1.5").problem,
+    "A whole number is needed here.",
+  );
+});

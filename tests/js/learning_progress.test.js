@@ -1,0 +1,60 @@
+import assert from "node:assert/strict";
+import test from "node:test";
+import { RunProgress } from "#js/learning/progress.js";
+
+const TITLES = { meirl: "MEIRL", irlr: "IRLR" };
+const queued = () =>
+  new RunProgress(
+    { status: "queued", reason: null, learners: { meirl: { outcome: null }, irlr: { outcome: null } } },
+    TITLES,
+  );
+const frame = (learner, iteration) => ({ learner, iteration, iterations: 500, gap: 0.4 });
+
+test("a queued run says what it waits for", () => {
+  const progress = queued();
+  assert.equal(progress.sentence, "Queued: learning starts as soon as a worker is free.");
+  assert.equal(progress.stageOf("meirl"), "waiting");
+});
+
+test("a learner's line names iteration and gap", () => {
+  const progress = queued();
+  progress.see(frame("meirl", 120));
+  assert.equal(progress.sentenceOf("meirl"), "iteration 120 of 500 · the gap to your play is 0.40 visits");
+  assert.equal(progress.sentence, "MEIRL is learning, the first of 2 learners.");
+  assert.equal(progress.sentenceOf("irlr"), "waiting its turn");
+  assert.equal(progress.shareOf("meirl"), 0.24);
+});
+
+test("learners follow each other", () => {
+  const progress = queued();
+  progress.see(frame("meirl", 500));
+  progress.settle("meirl", { outcome: "iteration_limit", sentence: "The limit came first." });
+  progress.see(frame("irlr", 0));
+  assert.equal(progress.sentence, "IRLR is learning, the second of 2 learners.");
+  assert.equal(progress.outcomeOf("meirl"), "The limit came first.");
+  assert.equal(progress.stageOf("meirl"), "learned");
+});
+
+test("the end is told, with what was left out and who ran away", () => {
+  const progress = queued();
+  progress.settle("meirl", { outcome: "converged", n_left_out: 1 });
+  progress.settle("irlr", { outcome: "converged", n_left_out: 0 });
+  progress.end("done");
+  assert.equal(
+    progress.sentence,
+    "All 2 learners have learned from your play. 1 failure that never reached the goal was left out.",
+  );
+  progress.settle("irlr", { outcome: "diverged" });
+  assert.equal(progress.sentence, "The run is done. IRLR ran away instead of settling.");
+});
+
+test("a failed run says why, a cancelled one how far it came", () => {
+  const failed = queued();
+  failed.end("failed", "The worker ran out of memory.");
+  assert.equal(failed.sentence, "The run failed: The worker ran out of memory.");
+  const cancelled = queued();
+  cancelled.settle("meirl", { outcome: "converged" });
+  cancelled.end("cancelled");
+  assert.match(cancelled.sentence, /^Cancelled after 1 of 2 learners\./);
+  assert.equal(cancelled.stageOf("irlr"), "ended");
+});
