@@ -340,7 +340,7 @@ function arrowHead(path, { tipX, tipY, dx, dy, size }) {
 function drawFigures({ context, geometry, world, view, look, theme }) {
   const { cell, ratio } = geometry;
   if (cell < SMALLEST_FIGURES * ratio) return;
-  const size = Math.min(cell * 0.3, 20 * ratio);
+  const size = Math.min(cell * (view.arrows ? 0.21 : 0.3), 20 * ratio);
   context.font = `600 ${size}px ${getComputedStyle(context.canvas).fontFamily}`;
   context.textAlign = "center";
   context.textBaseline = "middle";

@@ -14,6 +14,7 @@ import { isTaken } from "#js/lib/keys.js";
 
 const SVG = "http://www.w3.org/2000/svg";
 const SMALLEST_WHOLE_CELL = 4;
+const SMALL_CELL = 28;
 
 export class IrlBoard extends HTMLElement {
   #life = new AbortController();
@@ -139,7 +140,9 @@ export class IrlBoard extends HTMLElement {
     const note = make("span", `board-float board-float--${kind}`);
     note.textContent = text;
     note.style.left = `${(col + 0.5) * this.#cell}px`;
-    note.style.top = `${row * this.#cell + (row === 0 ? this.#cell * 0.3 : 0)}px`;
+    // Above the square, not over a small agent; in the first row a little lower, so that it stays on the board.
+    const shift = this.#cell < SMALL_CELL ? -SMALL_CELL / 2 : row === 0 ? this.#cell * 0.3 : 0;
+    note.style.top = `${row * this.#cell + shift}px`;
     this.#stage.append(note);
     const rise = prefersStill() ? 0 : -this.#cell * 0.35;
     const frames = [

@@ -242,7 +242,7 @@ class RankPage {
     if (!(error instanceof ApiError)) throw error;
     const isStale = error.status === 422 || error.status === 404;
     const sentence = isStale
-      ? `Your attempts have changed since this page was opened: ${error.message} Load the page again; your order is kept.`
+      ? "Your attempts have changed since this page was opened, so this order is not complete any more. Load the page again; your order is kept."
       : `${error.message} Your order is kept here; try again in a moment.`;
     this.#tell(sentence, isStale);
   }
