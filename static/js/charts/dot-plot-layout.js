@@ -46,9 +46,12 @@ export function layOutDotPlot(entries, width) {
   const right = width - RIGHT;
   const optimum = entries.find((entry) => entry.who === "optimal");
   const optimal = optimum ? (optimum.expected_return ?? optimum.mean_return) : null;
-  const domain = domainOf([0, ...entries.flatMap(extentOf), ...(optimal === null ? [] : [optimal])]);
+  const domain = domainOf(
+    [0, ...entries.flatMap(extentOf)],
+    Math.max(optimal ?? 0, ...entries.map((entry) => entry.mean_return)),
+  );
   const exact = linearScale(domain, [left, right]);
-  const x = (/** @type {number} */ value) => Math.max(left, exact(value));
+  const x = (/** @type {number} */ value) => Math.min(right, Math.max(left, exact(value)));
   const bottom = TOP + entries.length * ROW_HEIGHT;
   return {
     width,
@@ -76,13 +79,15 @@ export function layOutDotPlot(entries, width) {
 }
 
 /**
- * One attempt that lost without end would press everybody else into a point: what lies further below zero than twice the
- * best figure above it is cut off and marked as such.
+ * One attempt that lost without end would press everybody else into a point: what lies further from zero than twice the
+ * best figure is cut off, a mean as an arrow with its number.
  * @param {number[]} values
+ * @param {number} best
  */
-function domainOf(values) {
-  const floor = -2 * Math.max(1, ...values);
-  return roundDomain(Math.max(...values) > 0 ? values.map((value) => Math.max(floor, value)) : values);
+function domainOf(values, best) {
+  if (best <= 0) return roundDomain(values);
+  const reach = 2 * Math.max(1, best);
+  return roundDomain(values.map((value) => Math.min(reach, Math.max(-reach, value))));
 }
 
 /** @param {Entry} entry */

@@ -199,7 +199,7 @@ export class ComparePage extends HTMLElement {
 
   /** @param {Entry} entry @param {number} count */
   #nameOf({ who }, count) {
-    return who === "human" ? `attempt ${(this.#episode % count) + 1} of ${count}` : `episode ${this.#episode + 1}`;
+    return who === "human" ? `attempt ${(this.#episode % count) + 1}/${count}` : `episode ${this.#episode + 1}`;
   }
 
   /** @param {Event} event */

@@ -237,7 +237,7 @@ export class LearnPage extends HTMLElement {
   }
 
   #paintWords() {
-    const { run, world, demonstrations, rankings, learners } = this.#data;
+    const { run, demonstrations, rankings, learners } = this.#data;
     const progress = this.#progress;
     const isRunning = progress !== null && !progress.isOver;
     const canLearn = learners.some((learner) => !learner.missing);
@@ -257,14 +257,36 @@ export class LearnPage extends HTMLElement {
     this.#part("learn").textContent = run ? "Learn again" : "Learn";
     this.#part("learn").classList.toggle("button--primary", !isDone || isOld);
     this.#part("compare").classList.toggle("button--primary", !isOld);
-    this.#part("way-there").hidden = canLearn;
-    const way = wayThere(world, demonstrations, { uses_failures: false });
-    this.#part("way-there").href = way.href;
-    this.#part("way-there").textContent = way.text;
+    this.#paintWayThere(canLearn);
+    this.#paintPath(progress?.status ?? "");
     this.#lock(isRunning || this.#isAsking);
     this.dataset.status = progress?.status ?? "none";
     this.dataset.frames = String(this.#store.size);
     this.dataset.run = run?.id ?? "";
+  }
+
+  /** The way to what the first learner that cannot start misses. @param {boolean} canLearn */
+  #paintWayThere(canLearn) {
+    const { world, demonstrations, learners } = this.#data;
+    const stuck = learners.find((learner) => learner.missing);
+    const link = this.#part("way-there");
+    link.hidden = !stuck || (this.#progress !== null && !this.#progress.isOver);
+    if (!stuck) return;
+    const way = wayThere(world, demonstrations, stuck);
+    link.href = way.href;
+    link.textContent = way.text;
+    link.classList.toggle("button--primary", !canLearn);
+  }
+
+  /** The path at the top of the page moves on with the run. @param {string} status */
+  #paintPath(status) {
+    const state = document.querySelector('[data-path-state="learn"]');
+    if (state && status && state.textContent !== status) state.textContent = status;
+    const step = document.querySelector('.path-step[data-step="compare"]');
+    if (!step || status !== "done") return;
+    step.setAttribute("href", this.#part("compare").href);
+    step.removeAttribute("aria-disabled");
+    step.removeAttribute("role");
   }
 
   #paintTimeline() {
