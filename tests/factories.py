@@ -80,7 +80,7 @@ def step(world: dict[str, Any], state: int, action: int) -> int:
 
 
 def losing_path(world: dict[str, Any]) -> list[int]:
-    """The actions of a way to the goal that loses more than the goal pays: to the dearest square, to and fro, and on."""
+    """Actions of a way to the goal that loses more than it pays: to the dearest square, to and fro, and on."""
     rewards = [reward for row in world["rewards"] for reward in row]
     worst = min((s for s in range(len(rewards)) if s != world["start"]), key=rewards.__getitem__)
     there = shortest_path(world, world["start"], worst)
