@@ -42,7 +42,7 @@ test("the end is told, with what was left out and who ran away", () => {
   progress.end("done");
   assert.equal(
     progress.sentence,
-    "All 2 learners have learned from your play. 1 failure that never reached the goal was left out.",
+    "Both learners have learned from your play. 1 failure that never reached the goal was left out.",
   );
   progress.settle("irlr", { outcome: "diverged" });
   assert.equal(progress.sentence, "The run is done. IRLR ran away instead of settling.");

@@ -79,15 +79,15 @@ export function layOutDotPlot(entries, width) {
 }
 
 /**
- * One attempt that lost without end would press everybody else into a point: what lies further from zero than twice the
- * best figure is cut off, a mean as an arrow with its number.
+ * One attempt that lost without end would press everybody else into a point: what lies further below zero than twice the
+ * best figure, or well above it, is cut off; a mean becomes an arrow with its number.
  * @param {number[]} values
  * @param {number} best
  */
 function domainOf(values, best) {
   if (best <= 0) return roundDomain(values);
-  const reach = 2 * Math.max(1, best);
-  return roundDomain(values.map((value) => Math.min(reach, Math.max(-reach, value))));
+  const scale = Math.max(1, best);
+  return roundDomain(values.map((value) => Math.min(1.3 * scale, Math.max(-2 * scale, value))));
 }
 
 /** @param {Entry} entry */

@@ -133,11 +133,14 @@ export class RunProgress {
 
   #doneSentence() {
     const diverged = this.#learners.filter((learner) => this.#results.get(learner)?.outcome === "diverged");
-    const all =
-      this.#learners.length === 1 ? this.#titleOf(this.#learners[0] ?? "") : `All ${this.#learners.length} learners`;
-    const verb = this.#learners.length === 1 ? "has" : "have";
-    if (diverged.length === 0) return `${all} ${verb} learned from your play.${this.#leftOut}`;
+    if (diverged.length === 0) return `${this.#everybody} learned from your play.${this.#leftOut}`;
     return `The run is done. ${listed(diverged.map((learner) => this.#titleOf(learner)))} ran away instead of settling.`;
+  }
+
+  get #everybody() {
+    const count = this.#learners.length;
+    if (count === 1) return `${this.#titleOf(this.#learners[0] ?? "")} has`;
+    return count === 2 ? "Both learners have" : `All ${count} learners have`;
   }
 
   get #leftOut() {
