@@ -14,10 +14,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from irl_core.checks import Refused, identifier, is_integer, real_number, shown, whole_number
+from irl_core.checks import Refused, identifier, is_integer, shown
 from irl_core.errors import ImpossibleDemonstration, InvalidWorld
 from irl_core.grid import N_ACTIONS
 from irl_core.types import ENDINGS, MAX_SEED, MAX_SIDE, MIN_SIDE, Demonstration, Ending, World
+from irl_core.world_checks import real, whole
 
 DEFAULT_SIDE = 7
 DEFAULT_RED_PROBABILITY = 0.3
@@ -148,19 +149,10 @@ def _hash32(data: bytes) -> int:
 
 def _check_origin(*, seed: int, rows: int, cols: int, red_probability: float) -> None:
     """What must hold before anything is drawn; the World checks the rest."""
-    for name, value, minimum, maximum in (
-        ("rows", rows, MIN_SIDE, MAX_SIDE),
-        ("cols", cols, MIN_SIDE, MAX_SIDE),
-        ("seed", seed, 0, MAX_SEED),
-    ):
-        try:
-            whole_number(value, minimum=minimum, maximum=maximum)
-        except Refused as refused:
-            raise InvalidWorld(f"{name} {refused}.", field=name) from None
-    try:
-        real_number(red_probability, minimum=0.0, maximum=1.0)
-    except Refused as refused:
-        raise InvalidWorld(f"red_probability {refused}.", field="red_probability") from None
+    whole("rows", rows, minimum=MIN_SIDE, maximum=MAX_SIDE)
+    whole("cols", cols, minimum=MIN_SIDE, maximum=MAX_SIDE)
+    whole("seed", seed, minimum=0, maximum=MAX_SEED)
+    real("red_probability", red_probability, minimum=0.0, maximum=1.0)
 
 
 def _check_attempt_id(attempt_id: str) -> None:

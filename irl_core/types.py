@@ -1,6 +1,6 @@
 """The values everything else speaks of: worlds, demonstrations, rankings. Frozen; their arrays are read-only."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Final, Literal, Self, TypeAlias
@@ -9,14 +9,14 @@ import numpy as np
 
 from irl_core import grid
 from irl_core.arrays import IntMatrix, IntVector, Matrix, Vector, read_only
-from irl_core.checks import Refused, is_integer, real_number, shown, whole_number
+from irl_core.checks import shown
 from irl_core.errors import InvalidRanking, InvalidWorld
+from irl_core.world_checks import is_list, real, rewards_of, squares_of, whole
 
 MIN_SIDE: Final = 2
 MAX_SIDE: Final = 100
 MAX_SLIP: Final = 0.9
 MAX_SEED: Final = 2**53 - 1  # the largest integer that JSON and JavaScript carry exactly
-MAX_REWARD: Final = 1e6
 RED_BELOW: Final = -1.0
 """Red squares pay U[−7, −1], blue ones U[−1, 0]: less than −1 is red."""
 
@@ -48,18 +48,18 @@ class World:
     horizon: int = field(default=0, kw_only=True)
 
     def __post_init__(self) -> None:
-        rows = _whole("rows", self.rows, minimum=MIN_SIDE, maximum=MAX_SIDE)
-        cols = _whole("cols", self.cols, minimum=MIN_SIDE, maximum=MAX_SIDE)
-        start = _whole("start", self.start, minimum=0, maximum=rows * cols - 1)
-        goals = _squares("goals", self.goals, n_states=rows * cols)
-        walls = _squares("walls", self.walls, n_states=rows * cols)
+        rows = whole("rows", self.rows, minimum=MIN_SIDE, maximum=MAX_SIDE)
+        cols = whole("cols", self.cols, minimum=MIN_SIDE, maximum=MAX_SIDE)
+        start = whole("start", self.start, minimum=0, maximum=rows * cols - 1)
+        goals = squares_of("goals", self.goals, n_states=rows * cols)
+        walls = squares_of("walls", self.walls, n_states=rows * cols)
         self._set(rows=rows, cols=cols, start=start, goals=goals, walls=tuple(sorted(walls)))
-        self._set(rewards=_rewards(self.rewards, rows=rows, cols=cols))
-        self._set(slip=_real("slip", self.slip, minimum=0.0, maximum=MAX_SLIP))
+        self._set(rewards=rewards_of(self.rewards, rows=rows, cols=cols))
+        self._set(slip=real("slip", self.slip, minimum=0.0, maximum=MAX_SLIP))
         if self.seed is not None:
-            self._set(seed=_whole("seed", self.seed, minimum=0, maximum=MAX_SEED))
+            self._set(seed=whole("seed", self.seed, minimum=0, maximum=MAX_SEED))
         if self.red_probability is not None:
-            share = _real("red_probability", self.red_probability, minimum=0.0, maximum=1.0)
+            share = real("red_probability", self.red_probability, minimum=0.0, maximum=1.0)
             self._set(red_probability=share)
         self._check_squares()
         self._settle_horizon()
@@ -98,7 +98,12 @@ class World:
     @property
     def colours(self) -> tuple[tuple[Colour, ...], ...]:
         """What a person sees of each square, rows × cols."""
-        return tuple(tuple(self._colour(row * self.cols + col) for col in range(self.cols)) for row in range(self.rows))
+        seen: list[Colour] = ["red" if pays < RED_BELOW else "blue" for pays in self.reward.tolist()]
+        for wall in self.walls:
+            seen[wall] = "wall"
+        for goal in self.goals:
+            seen[goal] = "goal"
+        return tuple(tuple(seen[first : first + self.cols]) for first in range(0, self.n_states, self.cols))
 
     def to_json(self) -> dict[str, Any]:
         """The world as the API and files have it."""
@@ -124,8 +129,8 @@ class World:
         missing = [key for key in ("rows", "cols", "rewards") if key not in data]
         if missing:
             raise InvalidWorld(f"{missing[0]} is missing.", field=missing[0])
-        rows = _whole("rows", data["rows"], minimum=MIN_SIDE, maximum=MAX_SIDE)
-        cols = _whole("cols", data["cols"], minimum=MIN_SIDE, maximum=MAX_SIDE)
+        rows = whole("rows", data["rows"], minimum=MIN_SIDE, maximum=MAX_SIDE)
+        cols = whole("cols", data["cols"], minimum=MIN_SIDE, maximum=MAX_SIDE)
         goals: Any = data["goals"] if "goals" in data else [data.get("goal", rows * cols - 1)]
         horizon = data.get("horizon")
         return cls(
@@ -138,7 +143,7 @@ class World:
             slip=data.get("slip", 0.0),
             seed=data.get("seed"),
             red_probability=data.get("red_probability"),
-            horizon=0 if horizon is None else _whole("horizon", horizon, minimum=1, maximum=2 * rows * cols),
+            horizon=0 if horizon is None else whole("horizon", horizon, minimum=1, maximum=2 * rows * cols),
         )
 
     def __eq__(self, other: object) -> bool:
@@ -171,8 +176,8 @@ class World:
             raise InvalidWorld("A world needs at least one goal.", field="goals")
         if self.start in self.goals:
             raise InvalidWorld(f"The start, square {self.start}, cannot be a goal.", field="goals")
-        for name, squares in (("start", (self.start,)), ("goal", self.goals)):
-            walled = [square for square in squares if square in self.walls]
+        for name, taken in (("start", (self.start,)), ("goal", self.goals)):
+            walled = [square for square in taken if square in self.walls]
             if walled:
                 raise InvalidWorld(f"Square {walled[0]} is the {name} and cannot be a wall.", field="walls")
 
@@ -183,14 +188,7 @@ class World:
         shortest = int(steps[steps >= 0].min())
         if not self.horizon:  # 0, or None from a caller who says it in words
             self._set(horizon=grid.default_horizon(self.rows, self.cols, shortest=shortest))
-        self._set(horizon=_whole("horizon", self.horizon, minimum=shortest, maximum=2 * self.n_states))
-
-    def _colour(self, state: int) -> Colour:
-        if state in self.goals:
-            return "goal"
-        if state in self.walls:
-            return "wall"
-        return "red" if self.reward[state] < RED_BELOW else "blue"
+        self._set(horizon=whole("horizon", self.horizon, minimum=shortest, maximum=2 * self.n_states))
 
 
 @dataclass(frozen=True, eq=False)
@@ -261,7 +259,7 @@ class Ranking:
 
 def check_groups(groups: Iterable[Iterable[str]]) -> tuple[tuple[str, ...], ...]:
     """Groups of ids in display order: none empty, no id twice."""
-    if not _is_list(groups) or not all(_is_list(group) for group in groups):
+    if not is_list(groups) or not all(is_list(group) for group in groups):
         raise InvalidRanking("An order is a list of groups, each a list of demonstration ids.", field="order")
     checked = tuple(tuple(group) for group in groups)
     seen: set[str] = set()
@@ -275,50 +273,3 @@ def check_groups(groups: Iterable[Iterable[str]]) -> tuple[tuple[str, ...], ...]
                 raise InvalidRanking(f"Demonstration {shown(id_)} is in the order twice.", field="order")
             seen.add(id_)
     return checked
-
-
-def _rewards(values: Any, *, rows: int, cols: int) -> Matrix:  # noqa: ANN401 - outside data
-    """Rewards as a read-only copy; every number finite and at most a million in size."""
-    shape_wanted = f"rewards must be {rows} rows of {cols} numbers"
-    if isinstance(values, np.ndarray):
-        values = values.tolist()
-    if not _is_list(values) or len(values) != rows or not all(_is_list(row) and len(row) == cols for row in values):
-        raise InvalidWorld(f"{shape_wanted}.", field="rewards")
-    for row, numbers in enumerate(values):
-        for col, number in enumerate(numbers):
-            try:
-                real_number(number, minimum=-MAX_REWARD, maximum=MAX_REWARD)
-            except Refused as refused:
-                raise InvalidWorld(f"rewards[{row}][{col}] {refused}.", field="rewards") from None
-    rewards: Matrix = np.array(values, dtype=np.float64)
-    read_only(rewards)
-    return rewards
-
-
-def _squares(name: str, values: Iterable[int], *, n_states: int) -> tuple[int, ...]:
-    if not _is_list(values):
-        raise InvalidWorld(f"{name} must be a list of square numbers, not {shown(values)}.", field=name)
-    squares = [_whole(name, value, minimum=0, maximum=n_states - 1) for value in values]
-    if len(set(squares)) < len(squares):
-        raise InvalidWorld(f"{name} names a square twice.", field=name)
-    return tuple(squares)
-
-
-def _whole(name: str, value: object, *, minimum: int, maximum: int) -> int:
-    if is_integer(value) and minimum <= int(value) <= maximum:
-        return int(value)
-    try:
-        return whole_number(value, minimum=minimum, maximum=maximum)
-    except Refused as refused:
-        raise InvalidWorld(f"{name} {refused}.", field=name) from None
-
-
-def _real(name: str, value: object, *, minimum: float, maximum: float) -> float:
-    try:
-        return real_number(value, minimum=minimum, maximum=maximum)
-    except Refused as refused:
-        raise InvalidWorld(f"{name} {refused}.", field=name) from None
-
-
-def _is_list(value: object) -> bool:
-    return isinstance(value, Sequence | np.ndarray) and not isinstance(value, str | bytes)

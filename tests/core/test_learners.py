@@ -164,6 +164,16 @@ def test_the_order_in_which_demonstrations_are_given_changes_no_bit(name):
     assert learn(name, problem).to_json() == learn(name, shuffled).to_json()
 
 
+def test_a_demonstration_split_in_two_of_half_the_weight_changes_nothing():
+    problem = small_problem(iterations=30)
+    twice = [
+        attempt(problem.world, one.states.tolist(), id_=f"{one.id}{k}") for one in problem.demonstrations for k in "12"
+    ]
+    split = LearningProblem.build(problem.world, twice, (), problem.settings)
+    for name in ("meirl", "irlf"):
+        np.testing.assert_allclose(learn(name, split).reward, learn(name, problem).reward, atol=1e-10)
+
+
 def test_a_complete_tie_makes_ranking_learners_the_unranked_ones():
     problem = small_problem(iterations=30)
     tied = LearningProblem.build(

@@ -206,3 +206,33 @@ def test_at_zero_reward_the_infinite_sum_does_not_exist():
 def test_a_reward_or_horizon_that_cannot_be_planned_with_is_refused(reward, horizon, said):
     with pytest.raises(InvalidWorld, match=said):
         soft_plan(make_world(3, 3), reward, horizon=horizon)
+
+
+@given(seed=st.integers(0, 10**6), rows=st.integers(2, 6), cols=st.integers(2, 6))
+@settings(max_examples=15, deadline=None)
+def test_mirroring_a_world_mirrors_what_is_expected_of_it(seed, rows, cols):
+    world = generate_world(seed, rows=rows, cols=cols)
+    mirrored = World(cols, rows, world.rewards.T, 0, world.goals, horizon=world.horizon)
+    reward = some_reward(world, seed).reshape(rows, cols)
+    plan, twin = soft_plan(world, reward.ravel()), soft_plan(mirrored, reward.T.ravel())
+    assert twin.log_partition == pytest.approx(plan.log_partition, abs=1e-10)
+    visits = visitation(world, plan).reshape(rows, cols)
+    np.testing.assert_allclose(visitation(mirrored, twin).reshape(cols, rows).T, visits, atol=1e-9)
+    up_right_down_left = twin.policy.reshape(cols, rows, 4).transpose(1, 0, 2)[:, :, [3, 2, 1, 0]]
+    np.testing.assert_allclose(up_right_down_left, plan.policy.reshape(rows, cols, 4), atol=1e-9)
+
+
+def test_running_the_slip_forward_with_the_policy_would_not_be_the_gradient():
+    """Ziebart's forward pass, T with P_n(a | s), is off on 3×3 with slip: the path measure steers its own slips."""
+    world = SMALL_WORLDS["3x3 slip"]
+    plan = soft_plan(world, some_reward(world), horizon=8)
+    T, here = naive.transitions(world), np.eye(9)[0]
+    visits = here.copy()
+    for n in range(8, 0, -1):
+        ahead = np.exp(plan.step_log_z[n - 1])
+        action = T @ ahead
+        law = action / np.maximum(action.sum(axis=1, keepdims=True), 1e-300)
+        law[8] = 0.0
+        here = np.einsum("s,sa,sat->t", here, law, T)
+        visits += here
+    assert np.abs(visits - visitation(world, plan)).max() > 0.3
