@@ -104,9 +104,17 @@ export function symmetricRange(values) {
   return [-(largest || 1), largest || 1];
 }
 
+/** Shades are shared arrays, so that what is known of one holds for every square that has it. @type {WeakMap<Rgb, boolean>} */
+const darkInk = new WeakMap();
+
 /** True where dark ink reads better than light ink (equal contrast lies at a luminance of 0.179). @param {Rgb} colour */
 export function wantsDarkInk(colour) {
-  return luminance(colour) > 0.2;
+  let known = darkInk.get(colour);
+  if (known === undefined) {
+    known = luminance(colour) > 0.2;
+    darkInk.set(colour, known);
+  }
+  return known;
 }
 
 /** Relative luminance (WCAG 2). @param {Rgb} colour */

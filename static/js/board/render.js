@@ -26,23 +26,28 @@ export function lookOf(world, view, theme) {
   const n = world.rows * world.cols;
   const look = { pixels: new ImageData(world.cols, world.rows), isDark: new Uint8Array(n), loss: new Float32Array(n) };
   const range = view.values ? (view.scale ?? symmetricRange(view.values)) : null;
-  for (let state = 0; state < n; state++) {
-    const { rgb, loss } = squareLook(world, view, theme, range, state);
-    look.pixels.data.set([...rgb, 255], 4 * state);
-    look.isDark[state] = wantsDarkInk(rgb) ? 1 : 0;
-    look.loss[state] = loss;
+  const { data } = look.pixels;
+  for (let row = 0, state = 0; row < world.rows; row++) {
+    const colours = world.colours[row] ?? [];
+    for (let col = 0; col < world.cols; col++, state++) {
+      const colour = colours[col] ?? "blue";
+      let rgb = colour === "wall" ? theme.wall : theme.goal;
+      if (colour !== "wall" && (range !== null || colour !== "goal")) {
+        const { arm, depth } =
+          range && view.values
+            ? valueDepth(view.values[state] ?? 0, range)
+            : worldDepth(colour, world.rewards[row]?.[col] ?? 0);
+        rgb = shade(theme.scale, arm, depth);
+        if (arm === "red") look.loss[state] = depth;
+      }
+      data[4 * state] = rgb[0];
+      data[4 * state + 1] = rgb[1];
+      data[4 * state + 2] = rgb[2];
+      data[4 * state + 3] = 255;
+      look.isDark[state] = wantsDarkInk(rgb) ? 1 : 0;
+    }
   }
   return look;
-}
-
-/** @param {World} world @param {View} view @param {Theme} theme @param {[number, number] | null} range @param {number} state */
-function squareLook(world, view, theme, range, state) {
-  const colour = colourOf(world, state);
-  if (colour === "wall") return { rgb: theme.wall, loss: 0 };
-  if (range === null && colour === "goal") return { rgb: theme.goal, loss: 0 };
-  const { arm, depth } =
-    range && view.values ? valueDepth(view.values[state] ?? 0, range) : worldDepth(colour, rewardOf(world, state));
-  return { rgb: shade(theme.scale, arm, depth), loss: arm === "red" ? depth : 0 };
 }
 
 /** @param {Scene} scene */
