@@ -6,7 +6,6 @@ import numpy as np
 
 Vector: TypeAlias = np.ndarray[tuple[int], np.dtype[np.float64]]
 Matrix: TypeAlias = np.ndarray[tuple[int, int], np.dtype[np.float64]]
-Cube: TypeAlias = np.ndarray[tuple[int, int, int], np.dtype[np.float64]]
 IntVector: TypeAlias = np.ndarray[tuple[int], np.dtype[np.int64]]
 IntMatrix: TypeAlias = np.ndarray[tuple[int, int], np.dtype[np.int64]]
 BoolVector: TypeAlias = np.ndarray[tuple[int], np.dtype[np.bool_]]

@@ -11,9 +11,8 @@ import numpy as np
 
 from irl_core.arrays import BoolVector, IntMatrix, IntVector, Vector
 
-UP, RIGHT, DOWN, LEFT = range(4)
 N_ACTIONS: Final = 4
-_ROW_STEP: Final = (-1, 0, 1, 0)
+_ROW_STEP: Final = (-1, 0, 1, 0)  # 0 up, 1 right, 2 down, 3 left
 _COL_STEP: Final = (0, 1, 0, -1)
 
 
