@@ -82,6 +82,16 @@ class LiveServer:
                     return int(entry.name)
         raise RuntimeError("the server has no worker")
 
+    def lost_files(self) -> list[str]:
+        """Database files that the web process still holds although they were deleted: what it writes there is lost."""
+        if self._process is None:
+            return []
+        names = []
+        for descriptor in Path(f"/proc/{self._process.pid}/fd").iterdir():
+            with contextlib.suppress(OSError):  # closed while we looked
+                names.append(str(descriptor.readlink()))
+        return [name for name in names if name.startswith(str(self.database)) and name.endswith("(deleted)")]
+
     def ask_database(self, query: str, *values: object) -> list[tuple[Any, ...]]:
         """Look into the database from outside."""
         with contextlib.closing(sqlite3.connect(f"file:{self.database}?mode=ro", uri=True, timeout=30)) as connection:

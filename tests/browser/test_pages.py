@@ -1,0 +1,101 @@
+"""Every page and state: nothing for axe to find, in light and dark; and its pictures for the docs."""
+
+from pathlib import Path
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Browser, Page, expect
+
+from tests.browser import walk
+from tests.browser.conftest import watched
+
+SIZES = {"desktop": {"width": 1280, "height": 800}, "phone": {"width": 360, "height": 740}}
+SCHEMES = ("light", "dark")
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+def test_axe_finds_nothing_on_pages_without_a_past(page: Page, scheme: str) -> None:
+    page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
+    page.goto("/?seed=5")
+    check_axe(page, "home")
+    page.keyboard.press("?")
+    check_axe(page, "keys")
+    page.keyboard.press("Escape")
+    page.locator("#new-world summary").click()
+    check_axe(page, "new world")
+    page.goto("/?seed=5")
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("g")
+    expect(page.locator("#now")).to_have_attribute("data-shows", "result")
+    check_axe(page, "result of a failure")
+    expect(page.locator("#sync")).to_have_attribute("data-sync", "saved")
+    world_id = page.url.rpartition("/")[2]
+    for path in (f"/worlds/{world_id}/rank", f"/worlds/{world_id}/learn", "/docs"):
+        page.goto(path)
+        check_axe(page, path)
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+def test_axe_finds_nothing_on_pages_with_a_past(page: Page, base_url: str, scheme: str) -> None:
+    page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
+    world_id, run_id = walk.prepared(page, base_url)
+    for path in paths(world_id, run_id).values():
+        page.goto(path)
+        check_axe(page, path)
+    page.goto(f"/worlds/{world_id}/rank")
+    page.locator("#list-success .card").first.focus()
+    page.keyboard.press("Space")
+    check_axe(page, "a lifted card")
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+def test_axe_finds_nothing_on_the_error_page(browser: Browser, base_url: str, scheme: str) -> None:
+    """Not in a watched page: the browser itself reports the 404 on its console."""
+    context = browser.new_context(base_url=base_url, color_scheme=scheme)
+    page = context.new_page()
+    for path in ("/nowhere", "/?seed=minus", "/worlds/00000000-0000-0000-0000-000000000000"):
+        page.goto(path)
+        check_axe(page, path)
+    context.close()
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+@pytest.mark.parametrize("device", SIZES)
+def test_pictures(browser: Browser, base_url: str, screenshots: Path | None, device: str, scheme: str) -> None:
+    if screenshots is None:
+        pytest.skip("pictures are written with --screenshots")
+    context = browser.new_context(
+        base_url=base_url,
+        viewport=SIZES[device],
+        color_scheme=scheme,
+        has_touch=device == "phone",
+        reduced_motion="reduce",
+    )
+    page = context.new_page()
+    with watched(page, base_url):
+        page.goto("/?seed=5")
+        take(page, screenshots / f"home-{device}-{scheme}.png", full_page=False)
+        for name, path in paths(*walk.prepared(page, base_url)).items():
+            page.goto(path)
+            take(page, screenshots / f"{name}-{device}-{scheme}.png", full_page=device == "phone")
+    context.close()
+
+
+def paths(world_id: str, run_id: str) -> dict[str, str]:
+    return {
+        "play": f"/worlds/{world_id}",
+        "rank": f"/worlds/{world_id}/rank",
+        "learn": f"/runs/{run_id}",
+        "compare": f"/runs/{run_id}/comparison",
+    }
+
+
+def take(page: Page, path: Path, *, full_page: bool) -> None:
+    page.wait_for_load_state("networkidle")
+    page.wait_for_timeout(300)  # boards are drawn in the next frames
+    page.screenshot(path=path, full_page=full_page)
+
+
+def check_axe(page: Page, where: str) -> None:
+    results = Axe().run(page)
+    assert results.violations_count == 0, f"{where}:\n{results.generate_report()}"
