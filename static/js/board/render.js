@@ -1,11 +1,10 @@
 /**
  * Draws a board on two canvases, the same way at every size: the squares below (a rows × cols image drawn scaled, then
- * hatch, grid, goal, start, walls), the ink above (visits, paths, arrows, figures). Lengths are device pixels.
+ * hatch, grid, goal, start, walls), the ink above (ink.js). Lengths are device pixels.
  */
 
-import { shade, symmetricRange, traceMarker, valueDepth, walker, wantsDarkInk, worldDepth } from "#js/board/colours.js";
-import { colourOf, DELTAS, placeOf, rewardOf } from "#js/board/state.js";
-import { number } from "#js/lib/format.js";
+import { shade, symmetricRange, valueDepth, wantsDarkInk, worldDepth } from "#js/board/colours.js";
+import { colourOf, placeOf } from "#js/board/state.js";
 
 /** @typedef {import("#js/board/state.js").World} World */
 /** @typedef {import("#js/board/state.js").View} View */
@@ -16,10 +15,6 @@ import { number } from "#js/lib/format.js";
 
 const SMALLEST_HATCHED = 5;
 const SMALLEST_GRID = 6;
-const SMALLEST_ARROWS = 5;
-const SMALLEST_HEADS = 18;
-const SMALLEST_FIGURES = 17;
-const FAINTEST_ARROW = 0.03;
 
 /** The colour of every square, and the ink that reads on it. @param {World} world @param {View} view @param {Theme} theme @returns {Look} */
 export function lookOf(world, view, theme) {
@@ -63,16 +58,6 @@ export function drawSquares(scene) {
   drawWalls(scene);
   drawStart(scene);
   for (const goal of world.goals) drawFlag(scene, goal);
-}
-
-/** @param {Scene} scene */
-export function drawInk(scene) {
-  const { context, view } = scene;
-  context.clearRect(0, 0, context.canvas.width, context.canvas.height);
-  if (view.visits) drawVisits(scene);
-  for (const index of view.paths.keys()) drawPath(scene, index);
-  if (view.arrows) drawArrows(scene);
-  if (view.numbers) drawFigures(scene);
 }
 
 /** @param {ImageData} pixels */
@@ -205,192 +190,12 @@ function drawDot(context, [x, y], { gold, ink, ratio }) {
   context.stroke();
 }
 
-/** Discs whose area is proportional to the visits. @param {Scene} scene */
-function drawVisits({ context, geometry, world, view, theme }) {
-  const visits = view.visits ?? [];
-  const { cell, ratio } = geometry;
-  let largest = 0;
-  for (let i = 0; i < visits.length; i++) largest = Math.max(largest, visits[i] ?? 0);
-  if (!(largest > 0)) return;
-  const path = new Path2D();
-  for (let state = 0; state < visits.length; state++) {
-    const radius = 0.42 * cell * Math.sqrt(Math.max(0, visits[state] ?? 0) / largest);
-    if (radius < 0.35 * ratio) continue;
-    const [row, col] = placeOf(world, state);
-    const [x, y] = [(col + 0.5) * cell, (row + 0.5) * cell];
-    path.moveTo(x + radius, y);
-    path.arc(x, y, radius, 0, 2 * Math.PI);
-  }
-  context.fillStyle = theme.accent;
-  context.globalAlpha = 0.5;
-  context.fill(path);
-  context.globalAlpha = 1;
-  context.lineWidth = Math.max(ratio * 0.75, cell * 0.02);
-  context.strokeStyle = theme.canvas;
-  context.stroke(path);
-}
-
-/** @param {Scene} scene @param {number} index */
-function drawPath({ context, geometry, world, view, theme }, index) {
-  const path = view.paths[index];
-  if (!path || path.states.length < 2) return;
-  const { cell, ratio } = geometry;
-  // Paths side by side rather than on top of each other, within a third of a square.
-  const gap = Math.min(0.1, 0.34 / Math.max(1, view.paths.length));
-  const shift = (index - (view.paths.length - 1) / 2) * gap;
-  const points = path.states.map((state) => {
-    const [row, col] = placeOf(world, state);
-    return /** @type {const} */ ([(col + 0.5 + shift) * cell, (row + 0.5 + shift) * cell]);
-  });
-  const width = Math.max(1.75 * ratio, cell * (0.05 + 0.12 * (path.width ?? 0.4)));
-  const opacity = path.opacity ?? 1;
-  const colour = theme.who[path.who] ?? theme.inkDark;
-  context.lineCap = "round";
-  context.lineJoin = "round";
-  if (path.fade) drawFadingLine(context, points, { colour, halo: theme.canvas, width, opacity });
-  else drawLine(context, points, { colour, halo: theme.canvas, width, opacity });
-  const end = points.at(-1);
-  if (end && !path.fade && cell > 5 * ratio) {
-    context.globalAlpha = opacity;
-    context.fillStyle = colour;
-    context.strokeStyle = theme.canvas;
-    context.lineWidth = Math.max(ratio, width * 0.35);
-    context.beginPath();
-    traceMarker(context, walker(path.who).shape, end[0], end[1], Math.max(width * 1.15, cell * 0.14));
-    context.fill();
-    context.stroke();
-  }
-  context.globalAlpha = 1;
-}
-
-/** @typedef {{colour: string, halo: string, width: number, opacity: number}} Stroke */
-
-/** @param {CanvasRenderingContext2D} context @param {(readonly [number, number])[]} points @param {Stroke} stroke */
-function drawLine(context, points, { colour, halo, width, opacity }) {
-  const line = new Path2D();
-  points.forEach(([x, y], i) => {
-    if (i === 0) line.moveTo(x, y);
-    else line.lineTo(x, y);
-  });
-  context.globalAlpha = opacity;
-  context.strokeStyle = halo;
-  context.lineWidth = width * 1.9;
-  context.stroke(line);
-  context.strokeStyle = colour;
-  context.lineWidth = width;
-  context.stroke(line);
-}
-
-/** The older a step, the paler; never wholly gone. @param {CanvasRenderingContext2D} context @param {(readonly [number, number])[]} points @param {Stroke} stroke */
-function drawFadingLine(context, points, { colour, halo, width, opacity }) {
-  const last = points.length - 1;
-  for (const [paint, size] of /** @type {const} */ ([
-    [halo, 1.8],
-    [colour, 1],
-  ])) {
-    context.strokeStyle = paint;
-    context.lineWidth = width * size;
-    for (let i = 1; i <= last; i++) {
-      const [from, to] = [points[i - 1], points[i]];
-      if (!from || !to) continue;
-      context.globalAlpha = opacity * Math.max(0.22, 1 - (last - i) / 14);
-      context.beginPath();
-      context.moveTo(from[0], from[1]);
-      context.lineTo(to[0], to[1]);
-      context.stroke();
-    }
-  }
-}
-
-/** Four arrows a square, length ∝ probability, all of one ink in one path. @param {Scene} scene */
-function drawArrows({ context, geometry, world, view, look, theme }) {
-  const { cell, ratio } = geometry;
-  const arrows = view.arrows;
-  if (cell < SMALLEST_ARROWS * ratio || !arrows) return;
-  const lines = [new Path2D(), new Path2D()];
-  const heads = [new Path2D(), new Path2D()];
-  for (let state = 0; state < arrows.length; state++) {
-    if (world.goals.includes(state) || colourOf(world, state) === "wall") continue;
-    const [row, col] = placeOf(world, state);
-    const ink = look.isDark[state] ?? 0;
-    for (let action = 0; action < 4; action++) {
-      const probability = arrows[state]?.[action] ?? 0;
-      if (!(probability > FAINTEST_ARROW)) continue;
-      const [dy, dx] = DELTAS[action] ?? [0, 0];
-      const [x, y] = [(col + 0.5) * cell, (row + 0.5) * cell];
-      const length = 0.42 * cell * Math.min(1, probability);
-      const [tipX, tipY] = [x + dx * length, y + dy * length];
-      lines[ink]?.moveTo(x, y);
-      lines[ink]?.lineTo(tipX, tipY);
-      if (cell >= SMALLEST_HEADS * ratio)
-        arrowHead(heads[ink], { tipX, tipY, dx, dy, size: Math.min(cell * 0.11, length * 0.6) });
-    }
-  }
-  context.lineCap = "round";
-  context.lineWidth = Math.max(ratio, cell * 0.04);
-  strokeInks(context, theme, lines, 0.9);
-  fillInks(context, theme, heads, 0.9);
-}
-
-/** @param {Path2D | undefined} path @param {{tipX: number, tipY: number, dx: number, dy: number, size: number}} arrow */
-function arrowHead(path, { tipX, tipY, dx, dy, size }) {
-  const [baseX, baseY] = [tipX - dx * size * 0.6, tipY - dy * size * 0.6];
-  path?.moveTo(tipX + dx * size, tipY + dy * size);
-  path?.lineTo(baseX - dy * size, baseY + dx * size);
-  path?.lineTo(baseX + dy * size, baseY - dx * size);
-  path?.closePath();
-}
-
-/** @param {Scene} scene */
-function drawFigures({ context, geometry, world, view, look, theme }) {
-  const { cell, ratio } = geometry;
-  if (cell < SMALLEST_FIGURES * ratio) return;
-  const size = Math.min(cell * (view.arrows ? 0.21 : 0.3), 20 * ratio);
-  context.font = `600 ${size}px ${getComputedStyle(context.canvas).fontFamily}`;
-  context.textAlign = "center";
-  context.textBaseline = "middle";
-  for (let state = 0; state < world.rows * world.cols; state++) {
-    if (colourOf(world, state) === "wall") continue;
-    const [row, col] = placeOf(world, state);
-    const value = view.values ? (view.values[state] ?? 0) : rewardOf(world, state);
-    const isBelow = view.arrows !== null || world.goals.includes(state);
-    const text = number(value, Math.abs(value) >= 10 ? 0 : 1);
-    context.fillStyle = look.isDark[state] ? theme.inkDark : theme.inkLight;
-    plate(context, look, state, {
-      x: (col + 0.5) * cell,
-      y: (row + (isBelow ? 0.84 : 0.5)) * cell,
-      width: context.measureText(text).width,
-      size,
-    });
-    context.fillText(text, (col + 0.5) * cell, (row + (isBelow ? 0.84 : 0.52)) * cell);
-  }
-}
-
-/** The square's own colour behind its figure, so that hatch and paths do not cross it. @param {CanvasRenderingContext2D} context @param {Look} look @param {number} state @param {{x: number, y: number, width: number, size: number}} box */
-function plate(context, look, state, { x, y, width, size }) {
-  const ink = context.fillStyle;
-  const [r, g, b] = look.pixels.data.subarray(4 * state, 4 * state + 3);
-  context.fillStyle = `rgb(${r} ${g} ${b} / 0.85)`;
-  context.fillRect(x - width / 2 - size * 0.15, y - size * 0.6, width + size * 0.3, size * 1.2);
-  context.fillStyle = ink;
-}
-
 /** @param {CanvasRenderingContext2D} context @param {Theme} theme @param {Path2D[]} inks light, dark @param {number} alpha */
-function strokeInks(context, theme, [light, dark], alpha) {
+export function strokeInks(context, theme, [light, dark], alpha) {
   context.globalAlpha = alpha;
   context.strokeStyle = theme.inkLight;
   if (light) context.stroke(light);
   context.strokeStyle = theme.inkDark;
   if (dark) context.stroke(dark);
-  context.globalAlpha = 1;
-}
-
-/** @param {CanvasRenderingContext2D} context @param {Theme} theme @param {Path2D[]} inks light, dark @param {number} alpha */
-function fillInks(context, theme, [light, dark], alpha) {
-  context.globalAlpha = alpha;
-  context.fillStyle = theme.inkLight;
-  if (light) context.fill(light);
-  context.fillStyle = theme.inkDark;
-  if (dark) context.fill(dark);
   context.globalAlpha = 1;
 }

@@ -3,7 +3,8 @@
  * assigned is painted in the next animation frame. It fills the box the page gives it, with whole device pixels a square.
  */
 
-import { drawInk, drawSquares, lookOf } from "#js/board/render.js";
+import { drawInk } from "#js/board/ink.js";
+import { drawSquares, lookOf } from "#js/board/render.js";
 import { DELTAS, EMPTY_VIEW, placeOf } from "#js/board/state.js";
 import { onThemeChange, theme } from "#js/board/theme.js";
 import { isTaken } from "#js/lib/keys.js";
