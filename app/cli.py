@@ -2,6 +2,7 @@
 
 import json
 import os
+import socket
 import sys
 from collections.abc import Mapping
 from pathlib import Path
@@ -43,20 +44,21 @@ def serve(
     from app.main import create_app  # noqa: PLC0415
 
     settings = _settings(host=host, port=port, workers=workers)
+    listener = _listen(settings)
     migrate(settings)
-    app = create_app(settings)
-    supervisor = Supervisor(settings)
-    supervisor.start()
-    typer.echo(f"IRLFR is at http://{settings.host}:{settings.port}")
-    try:
-        uvicorn.run(
-            app,
-            host=settings.host,
-            port=settings.port,
+    server = uvicorn.Server(
+        uvicorn.Config(
+            create_app(settings),
             log_level="warning",
             server_header=False,
             timeout_graceful_shutdown=2,  # an open stream would hold a stop forever
         )
+    )
+    supervisor = Supervisor(settings)
+    supervisor.start()
+    typer.echo(f"IRLFR is at {_address(settings)}")
+    try:
+        server.run(sockets=[listener])
     finally:
         supervisor.stop()
 
@@ -119,30 +121,38 @@ def doctor() -> None:
     raise typer.Exit(0 if is_well else 1)
 
 
+def _listen(settings: Settings) -> socket.socket:
+    """Take the port before anything else is started, so that a port in use costs nothing."""
+    is_v6 = ":" in settings.host
+    try:
+        return socket.create_server(
+            (settings.host, settings.port), family=socket.AF_INET6 if is_v6 else socket.AF_INET, backlog=2048
+        )
+    except OSError as error:
+        _refuse(
+            f"Cannot listen on {_address(settings)}: {error.strerror}.\n"
+            f"Another server may be running there; choose another port: irlfr serve --port {settings.port + 1}"
+        )
+
+
+def _address(settings: Settings) -> str:
+    host = f"[{settings.host}]" if ":" in settings.host else settings.host
+    return f"http://{host}:{settings.port}"
+
+
 def _learn(file: Path, names: list[str], seed: int, changed: Mapping[str, Any]) -> dict[str, Any]:
     """Do what a run of the web app does, without the web app."""
-    from irl_core import (  # noqa: PLC0415
-        LEARNERS,
-        LearningProblem,
-        compare,
-        read_demonstration_file,
-    )
-    from irl_core import (
-        Settings as LearningSettings,
-    )
-    from irl_core import (
-        learn as learn_with,
-    )
+    import irl_core  # noqa: PLC0415
 
-    unknown = [name for name in names if name not in LEARNERS]
+    unknown = [name for name in names if name not in irl_core.LEARNERS]
     if unknown:
-        _refuse(f"There is no learner {unknown[0]!r}; there are {', '.join(LEARNERS)}.")
-    read = read_demonstration_file(file)
-    problem = LearningProblem.build(
-        read.world, read.demonstrations, read.rankings, settings=LearningSettings.from_json(changed), seed=seed
+        _refuse(f"There is no learner {unknown[0]!r}; there are {', '.join(irl_core.LEARNERS)}.")
+    read = irl_core.read_demonstration_file(file)
+    problem = irl_core.LearningProblem.build(
+        read.world, read.demonstrations, read.rankings, settings=irl_core.Settings.from_json(changed), seed=seed
     )
-    results = [learn_with(LEARNERS[name], problem) for name in names]
-    comparison = compare(read.world, read.demonstrations, results, seed=seed).to_json()
+    results = [irl_core.learn(irl_core.LEARNERS[name], problem) for name in names]
+    comparison = irl_core.compare(read.world, read.demonstrations, results, seed=seed).to_json()
     return {
         "file": file.name,
         "seed": seed,

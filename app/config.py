@@ -24,7 +24,7 @@ class Settings(BaseSettings):
     port: Annotated[int, Field(ge=1, le=65535)] = Field(default=8000, description="The port the web server listens on.")
     secret_key: SecretStr | None = Field(
         default=None,
-        description="Signs the visitors' cookies, at least 32 characters. Made once and kept beside the database if unset.",
+        description="Signs the visitors' cookies, at least 32 characters. Made and kept beside the database if unset.",
     )
     https: bool = Field(default=False, description="Served over https: cookies are Secure and HSTS is sent.")
     workers: Annotated[int, Field(ge=0, le=64)] = Field(
@@ -52,7 +52,7 @@ class Settings(BaseSettings):
     @classmethod
     def _is_long_enough(cls, key: SecretStr | None) -> SecretStr | None:
         if key is not None and len(key.get_secret_value()) < 32:
-            message = "must have at least 32 characters; make one with: python -c 'import secrets; print(secrets.token_hex())'"
+            message = "must have at least 32 characters; make one with: openssl rand -hex 32"
             raise ValueError(message)
         return key
 

@@ -31,6 +31,8 @@ if sys.platform == "linux":
     SQLITE: ModuleType = pysqlite3
 else:
     SQLITE = sqlite3
+"""The one SQLite library of this process. Two of them on one file undo each other's locks (POSIX drops all locks of a
+process on a file when any descriptor of it is closed) and so destroy the file: nothing here may open it by another."""
 
 T = TypeVar("T")
 
@@ -109,12 +111,28 @@ def make_engine(url: str, access: Access, *, patience_ms: int = WEB_PATIENCE_MS)
 
 def migrate(settings: Settings) -> None:
     """Bring the file to the newest layout: our tables by Alembic, then the job engine's own."""
-    from dbos import DBOS  # noqa: PLC0415 - half a second of import that only migrations and workers need
-
     settings.data_dir.mkdir(parents=True, exist_ok=True)
     with FileLock(settings.data_dir / "migration.lock"):  # two processes that start at once take turns
         command.upgrade(_alembic(settings), "head")
-        DBOS.migrate(settings.database_url)
+        _migrate_job_engine(settings)
+
+
+def _migrate_job_engine(settings: Settings) -> None:
+    """Do what `DBOS.migrate` does, on our own SQLite library: see `SQLITE`."""
+    from dbos import DBOSPortableJSONSerializer  # noqa: PLC0415 - half a second of import that readers do not need
+    from dbos._sys_db import SystemDatabase  # noqa: PLC0415 - there is no public way to migrate with an engine of ours
+
+    engine = make_engine(settings.database_url, "jobs")
+    SystemDatabase.create(
+        system_database_url=settings.database_url,
+        engine_kwargs={},
+        engine=engine,
+        schema=None,
+        serializer=DBOSPortableJSONSerializer(),
+        executor_id=None,
+        use_listen_notify=False,
+    ).run_migrations()
+    engine.dispose()
 
 
 def pending_migrations(settings: Settings) -> list[str]:

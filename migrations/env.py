@@ -14,7 +14,8 @@ def is_ours(name: str | None, kind: str, _: object) -> bool:
     return kind != "table" or name in Base.metadata.tables
 
 
-with make_engine(url, "write").connect() as connection:
+engine = make_engine(url, "write")
+with engine.connect() as connection:
     context.configure(
         connection=connection,
         target_metadata=Base.metadata,
@@ -25,3 +26,4 @@ with make_engine(url, "write").connect() as connection:
     )
     with context.begin_transaction():
         context.run_migrations()
+engine.dispose()

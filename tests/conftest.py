@@ -1,7 +1,6 @@
 """The real app over a real SQLite file, fresh for each test."""
 
 import shutil
-import sqlite3
 import warnings
 from collections.abc import Iterator
 from pathlib import Path
@@ -10,7 +9,7 @@ import pytest
 from fastapi import FastAPI
 
 from app.config import Settings
-from app.db import migrate
+from app.db import SQLITE, migrate
 
 with warnings.catch_warnings():
     warnings.simplefilter("ignore")  # starlette asks for the successor of httpx, which is not in our lock
@@ -40,7 +39,7 @@ def migrated_database(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """One empty file with all tables; migrating takes a second, copying does not."""
     settings = make_settings(tmp_path_factory.mktemp("migrated"))
     migrate(settings)
-    connection = sqlite3.connect(settings.database_path)
+    connection = SQLITE.connect(settings.database_path)
     connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
     connection.close()
     return settings.database_path

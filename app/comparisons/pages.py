@@ -50,7 +50,7 @@ def show_comparison(
         rows = demonstrations_of(session, run)
         stored = results(session, [run.id])[run.id]
         path = path_state(session, visitor_id, run.world_id, "compare")
-    data = {
+    data: dict[str, Any] = {
         "world": world.to_json(),
         "demonstrations": demonstrations_json(rows),
         "rankings": snapshot_rankings(run),

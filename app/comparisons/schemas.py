@@ -17,7 +17,7 @@ class EntryOut(BaseModel):
         description="Exact, of the best path to a goal under the learned reward; null for the human."
     )
     share_of_optimum: float | None = Field(
-        description="expected_return (the human's: mean_return) over the optimum's; null where the optimum is not positive."
+        description="expected_return (the human's: mean_return) over the optimum's; null where that is not positive."
     )
     place: int = Field(
         description="1 is best, by expected return (the human's: mean return); ties share the better place."

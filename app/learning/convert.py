@@ -30,7 +30,7 @@ def to_problem(
 def to_rankings(groups_by_outcome: Mapping[str, Sequence[Sequence[str]]]) -> list[Ranking]:
     """Hand stored orders to irl_core."""
     return [
-        Ranking(outcome, tuple(tuple(group) for group in groups))  # type: ignore[arg-type] - the table checks the word
+        Ranking(outcome, tuple(tuple(group) for group in groups))  # type: ignore[arg-type]  # the table checks the word
         for outcome, groups in groups_by_outcome.items()
     ]
 
@@ -70,7 +70,7 @@ def to_out(run: Run, results: Mapping[str, RunResult]) -> RunOut:
     return RunOut(
         id=run.id,
         world_id=run.world_id,
-        status=run.status,  # type: ignore[arg-type] - the table's own check holds it to these words
+        status=run.status,  # type: ignore[arg-type]  # the table checks the word
         reason=run.reason,
         seed=run.seed,
         settings=run.settings,

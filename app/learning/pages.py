@@ -59,7 +59,7 @@ def _page(session: Session, world: StoredWorld, visitor_id: str | None, run: Run
     kept = [row for row in rows if row.discarded_at is None]
     rankings = service.current_rankings(session, visitor_id, world.id, kept)
     problem = to_problem(world.world, kept, rankings, settings={}, seed=0)
-    data = {
+    data: dict[str, Any] = {
         "world": world.to_json(),
         "demonstrations": demonstrations_json(rows),
         "rankings": rankings_out(newest(session, visitor_id, world.id)).model_dump(mode="json"),

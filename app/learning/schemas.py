@@ -42,7 +42,7 @@ class RunOut(BaseModel):
     settings: dict[str, Any]
     learners: dict[str, dict[str, Any]] = Field(
         description="By name: outcome, sentence, iterations, gap, log_likelihood, reward[rows][cols], "
-        "policy[rows·cols][4] (the one that is executed), visitation[rows][cols]; outcome is null until it has finished."
+        "policy[rows·cols][4] (the one that is executed), visitation[rows][cols]; outcome is null until then."
     )
     n_demonstrations: int
     n_left_out: int = Field(description="Failures that never reached the goal and were not learned from.")

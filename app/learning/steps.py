@@ -6,8 +6,8 @@
     finish     everybody is compared; running → done
     fail       the reason is stored; → failed
 
-Each step first makes sure that the run is still wanted. A worker that dies loses at most one step: its successor finds the
-checkpoint, whose numbers are stored exactly, and goes on to the same result, bit for bit.
+Each step first makes sure that the run is still wanted. A worker that dies loses at most one step: its successor finds
+the checkpoint, whose numbers are stored exactly, and goes on to the same result, bit for bit.
 """
 
 import time

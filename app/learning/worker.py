@@ -104,7 +104,7 @@ def _stay_alive(database: Database, name: str, *, follow_stdin: bool) -> None:
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: stop.set())
     if follow_stdin:
-        threading.Thread(target=lambda: (sys.stdin.buffer.read(), stop.set()), daemon=True).start()
+        threading.Thread(target=_until_stdin_ends, args=(stop,), daemon=True).start()
     while True:
         try:
             database.write(lambda session: _show_life(session, name))
@@ -114,9 +114,14 @@ def _stay_alive(database: Database, name: str, *, follow_stdin: bool) -> None:
         if stop.wait(SIGN_OF_LIFE_EVERY_S):
             break
     try:
-        database.write(lambda session: session.execute(delete(Worker).where(Worker.name == name)) and None)
+        database.write(lambda session: session.execute(delete(Worker).where(Worker.name == name)))
     finally:
         os._exit(0)
+
+
+def _until_stdin_ends(stop: threading.Event) -> None:
+    sys.stdin.buffer.read()
+    stop.set()
 
 
 def _show_life(session: Session, name: str) -> None:

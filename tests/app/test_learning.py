@@ -186,7 +186,7 @@ def test_a_learner_that_breaks_fails_the_run_with_a_reason(client, played, datab
     run = client.get(f"/api/v1/runs/{run_id}").json()
     assert run["status"] == "failed"
     assert "out of memory" in run["reason"]
-    number, kind, data = events(client, run_id)[-1]
+    _, kind, data = events(client, run_id)[-1]
     assert (kind, data["status"], data["message"]) == ("failed", "failed", run["reason"])
 
 

@@ -39,7 +39,9 @@ def test_many_threads_store_everything_once(database):
 def test_a_failing_piece_of_work_takes_no_other_with_it(database):
     database.write(add("taken"))
     with ThreadPoolExecutor(16) as pool:
-        futures = [pool.submit(database.write, add("taken" if number % 3 == 0 else str(number))) for number in range(90)]
+        futures = [
+            pool.submit(database.write, add("taken" if number % 3 == 0 else str(number))) for number in range(90)
+        ]
     failures = [future for future in futures if isinstance(future.exception(), IntegrityError)]
     assert len(failures) == 30
     assert count(database) == 1 + 60
