@@ -14,7 +14,7 @@ const LONGEST_PAUSE_MS = 60_000;
  * @typedef {object} Parcel
  * @property {string} id                     of the demonstration
  * @property {string} worldId
- * @property {Record<string, unknown> | null} world   what makes the world, when the server may not have it yet
+ * @property {Record<string, unknown>} world what makes the world
  * @property {{id: string, actions: readonly number[], step_ms: readonly number[], ending: string}} body
  * @property {number} at                     when it was put in, ms since 1970
  * @property {string | null} refusal         the server's sentence, once it has refused for good
@@ -125,10 +125,14 @@ export class Outbox {
   }
 }
 
-/** The world first, when the server may not have it; then the attempt. @param {Parcel} parcel */
-export async function sendParcel({ world, worldId, body }) {
-  const known = world ? (await api.post("/worlds", world)).id : worldId;
-  return api.post(`/worlds/${known}/demonstrations`, body, { keepalive: true });
+/**
+ * The world first, even one that the server has: it costs nothing to make the same world again, and its answer brings a
+ * new visitor their cookie. Were the attempt the first to ask, and its answer lost, it would come again from a stranger.
+ * @param {Parcel} parcel
+ */
+export async function sendParcel({ world, body }) {
+  const { id } = await api.post("/worlds", world);
+  return api.post(`/worlds/${id}/demonstrations`, body, { keepalive: true });
 }
 
 /** The browser's own storage; where it is closed to us (some private windows), memory, which lasts as long as the page. @returns {Promise<{store: Store, lasts: boolean}>} */

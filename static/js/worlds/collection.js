@@ -62,8 +62,8 @@ export class Collection {
     this.#entries.push({ ...shared, discarded: false, sync: "waiting", note: null });
     this.#show();
     const body = { id, actions, step_ms: stepMs, ending: ending ?? "gave_up" };
-    const world = this.#isSaved ? null : this.#spec();
-    void this.#outbox.then((outbox) => outbox.add({ id, worldId: this.#world.id, world, body }));
+    const parcel = { id, worldId: this.#world.id, world: this.#spec(), body };
+    void this.#outbox.then((outbox) => outbox.add(parcel));
   }
 
   /** Attempts of this outcome that count. @param {"success" | "failure"} outcome */
