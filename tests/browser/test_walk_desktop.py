@@ -61,7 +61,7 @@ def check_comparison(page: Page, base_url: str, run_id: str) -> None:
         assert mean.partition(" ±")[0] == figure(entry["mean_return"], 1)
         assert expected == figure(entry["expected_return"], 2)
         assert greedy == figure(entry["greedy_return"], 2)
-        assert share == f"{figure(100 * entry['share_of_optimum'], 0)} %"
+        assert share == ("below 0" if entry["share_of_optimum"] < 0 else f"{100 * entry['share_of_optimum']:.0f} %")
         assert episodes == str(entry["episodes"])
 
 

@@ -55,7 +55,6 @@ def play_by_pad(page: Page, actions: list[int]) -> None:
 def play_by_swipes(page: Page, actions: list[int]) -> None:
     for action in actions:
         swipe(page, page.locator("#board"), action)
-    page.wait_for_timeout(400)  # Chromium takes a tap right after a swipe for the end of the fling
     finish_attempt(page, lambda: page.locator('[data-command="again"]').tap())
 
 
@@ -76,6 +75,7 @@ def swipe(page: Page, board: Locator, action: int) -> None:
     for part in (0.3, 0.7, 1.0):
         points = [{"x": x + part * dx, "y": y + part * dy}]
         finger.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": points})
+    page.wait_for_timeout(120)  # a finger lifted in full motion is a fling, which swallows the next tap
     finger.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
     finger.detach()
 
