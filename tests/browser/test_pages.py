@@ -1,20 +1,23 @@
 """Every page and state: nothing for axe to find, in light and dark; and its pictures for the docs."""
 
 from pathlib import Path
+from typing import Literal
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Browser, Page, ViewportSize, expect
 
 from tests.browser import walk
 from tests.browser.conftest import watched
 
-SIZES = {"desktop": {"width": 1280, "height": 800}, "phone": {"width": 360, "height": 740}}
-SCHEMES = ("light", "dark")
+Scheme = Literal["light", "dark"]
+
+SIZES: dict[str, ViewportSize] = {"desktop": {"width": 1280, "height": 800}, "phone": {"width": 360, "height": 740}}
+SCHEMES: tuple[Scheme, ...] = ("light", "dark")
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)
-def test_axe_finds_nothing_on_pages_without_a_past(page: Page, scheme: str) -> None:
+def test_axe_finds_nothing_on_pages_without_a_past(page: Page, scheme: Scheme) -> None:
     page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
     page.goto("/?seed=5")
     check_axe(page, "home")
@@ -37,7 +40,7 @@ def test_axe_finds_nothing_on_pages_without_a_past(page: Page, scheme: str) -> N
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)
-def test_axe_finds_nothing_on_pages_with_a_past(page: Page, base_url: str, scheme: str) -> None:
+def test_axe_finds_nothing_on_pages_with_a_past(page: Page, base_url: str, scheme: Scheme) -> None:
     page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
     world_id, run_id = walk.prepared(page, base_url)
     for path in paths(world_id, run_id).values():
@@ -50,7 +53,7 @@ def test_axe_finds_nothing_on_pages_with_a_past(page: Page, base_url: str, schem
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)
-def test_axe_finds_nothing_on_the_error_page(browser: Browser, base_url: str, scheme: str) -> None:
+def test_axe_finds_nothing_on_the_error_page(browser: Browser, base_url: str, scheme: Scheme) -> None:
     """Not in a watched page: the browser itself reports the 404 on its console."""
     context = browser.new_context(base_url=base_url, color_scheme=scheme)
     page = context.new_page()
@@ -62,7 +65,7 @@ def test_axe_finds_nothing_on_the_error_page(browser: Browser, base_url: str, sc
 
 @pytest.mark.parametrize("scheme", SCHEMES)
 @pytest.mark.parametrize("device", SIZES)
-def test_pictures(browser: Browser, base_url: str, screenshots: Path | None, device: str, scheme: str) -> None:
+def test_pictures(browser: Browser, base_url: str, screenshots: Path | None, device: str, scheme: Scheme) -> None:
     if screenshots is None:
         pytest.skip("pictures are written with --screenshots")
     context = browser.new_context(

@@ -9,12 +9,12 @@ from playwright.sync_api import Browser, Page, expect
 from tests.browser import walk
 from tests.browser.conftest import watched
 
-PHONE = {"viewport": {"width": 360, "height": 740}, "has_touch": True, "is_mobile": True, "device_scale_factor": 2}
-
 
 @pytest.fixture
 def phone(browser: Browser, base_url: str) -> Iterator[Page]:
-    context = browser.new_context(base_url=base_url, **PHONE)
+    context = browser.new_context(
+        base_url=base_url, viewport={"width": 360, "height": 740}, has_touch=True, is_mobile=True, device_scale_factor=2
+    )
     page = context.new_page()
     with watched(page, base_url):
         yield page
