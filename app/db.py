@@ -20,10 +20,11 @@ from alembic.runtime.migration import MigrationContext
 from alembic.script import ScriptDirectory
 from filelock import FileLock
 from sqlalchemy import Connection, Engine, event
+from sqlalchemy.exc import OperationalError
 from sqlalchemy.orm import Session
 
 from app.config import Settings
-from app.kit.writer import Writer
+from app.kit.writer import Writer, WriterIsBusy
 
 if sys.platform == "linux":
     import pysqlite3
@@ -39,7 +40,10 @@ T = TypeVar("T")
 SOUND_SQLITE = (3, 51, 3)
 """Older libraries can damage a WAL file when it is reset (fixed in 3.51.3, and in 3.50.7 and 3.44.6)."""
 
-WEB_PATIENCE_MS = 5_000
+CANNOT_WRITE = (OperationalError, WriterIsBusy)
+"""What says that the database, not the request, is the reason: the same again a little later may succeed."""
+
+WEB_PATIENCE_MS = 3_000
 """How long a web request waits for the write lock before it is told to come back."""
 WORKER_PATIENCE_MS = 30_000
 """How long a background step waits: nobody is holding the line."""
@@ -64,8 +68,8 @@ class Database:
     def write(self, work: Callable[[Session], T]) -> T:
         """Do `work(session)` in the writer; when this returns, what it did is on the disk.
 
-        Raises whatever the work raised (and nothing of it is stored), WriterIsBusy when too much is waiting, or
-        sqlalchemy's OperationalError when the file is locked, full or gone.
+        Raises whatever the work raised (and nothing of it is stored), or one of CANNOT_WRITE when too much is waiting
+        or the file is locked, full or gone.
         """
         return self._writer.run(work)
 

@@ -3,6 +3,9 @@
 A commit that survives a power cut waits for the disk (`synchronous=FULL`). Paying for that once for all the work that
 arrived in the meantime keeps the guarantee and gives several times the rate of one commit for each piece. The caller is
 answered only after the commit, so what was acknowledged is on the disk. A piece that fails is rolled back alone.
+
+When the file cannot be written (locked, full), everybody who waits is told at once, and until a commit succeeds again
+only one piece at a time may try: a crowd that waits for a lock would hold every thread that could still read.
 """
 
 import queue
@@ -22,7 +25,11 @@ GROUP_SIZE = 64
 
 
 class WriterIsBusy(Exception):
-    """The queue is full or closed: try again a little later."""
+    """The queue is full or closed, or the file cannot be written just now: try again a little later."""
+
+
+class TransactionLost(WriterIsBusy):
+    """The database gave up the whole transaction in the middle of it, as SQLite does when the disk is full."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,37 +43,47 @@ class Writer:
 
     def __init__(self, engine: Engine, *, queue_length: int) -> None:
         self._engine = engine
-        self._queue: queue.Queue[_Item | None] = queue.Queue(maxsize=queue_length)
+        self._queue: queue.SimpleQueue[_Item | None] = queue.SimpleQueue()
+        self._queue_length = queue_length
+        self._admission = threading.Lock()  # guards what follows: nobody is let in behind the sign to stop
+        self._n_admitted = 0
         self._is_closed = False
+        self._is_stuck = False
         self._thread = threading.Thread(target=self._loop, name="writer", daemon=True)
         self._thread.start()
 
     def run(self, work: Callable[[Session], T]) -> T:
         """Do `work(session)`, wait until it is on the disk, and return what it returned or raise what it raised."""
         item = _Item(work)
-        if self._is_closed:
-            raise WriterIsBusy
+        self._admit(item)
         try:
-            self._queue.put_nowait(item)
-        except queue.Full:
-            raise WriterIsBusy from None
-        result: T = item.future.result()
+            result: T = item.future.result()
+        finally:
+            with self._admission:
+                self._n_admitted -= 1
         return result
 
     def close(self) -> None:
         """Finish what has been accepted, then stop."""
-        if not self._is_closed:
-            self._is_closed = True
-            self._queue.put(None)
-            self._thread.join()
+        with self._admission:
+            if not self._is_closed:
+                self._is_closed = True
+                self._queue.put(None)
+        self._thread.join()
+
+    def _admit(self, item: _Item) -> None:
+        with self._admission:
+            most = 1 if self._is_stuck else self._queue_length
+            if self._is_closed or self._n_admitted >= most:
+                raise WriterIsBusy
+            self._n_admitted += 1
+            self._queue.put(item)
 
     def _loop(self) -> None:
-        while (first := self._queue.get()) is not None:
+        is_last = False
+        while not is_last and (first := self._queue.get()) is not None:
             group, is_last = self._gather(first)
             self._commit(group)
-            if is_last:
-                break
-        self._refuse_the_rest()
 
     def _gather(self, first: _Item) -> tuple[list[_Item], bool]:
         """Take what is already waiting; the flag says that the sign to stop was among it."""
@@ -89,23 +106,33 @@ class Writer:
                     try:
                         done.append((item, _in_savepoint(connection, item.work)))
                     except Exception as error:  # noqa: BLE001 - handed to the caller who asked for this work
+                        _check_is_in_transaction(connection, error)
                         item.future.set_exception(error)
         except Exception as error:  # noqa: BLE001 - the commit itself failed: nobody may believe they were stored
-            for item in group:
-                if not item.future.done():
-                    item.future.set_exception(error)
+            self._is_stuck = True
+            self._refuse(group, error)
             return
+        self._is_stuck = False
         for item, result in done:
             item.future.set_result(result)
 
-    def _refuse_the_rest(self) -> None:
-        while True:
-            try:
-                item = self._queue.get_nowait()
-            except queue.Empty:
-                return
-            if item is not None:
-                item.future.set_exception(WriterIsBusy())
+    def _refuse(self, group: list[_Item], error: Exception) -> None:
+        """Tell the group why, and those who came meanwhile to come again."""
+        for item in group:
+            if not item.future.done():
+                item.future.set_exception(error)
+        for _ in range(self._queue.qsize()):
+            waiting = self._queue.get()
+            if waiting is None:
+                self._queue.put(None)  # the sign to stop is the last in the queue
+            else:
+                waiting.future.set_exception(WriterIsBusy())
+
+
+def _check_is_in_transaction(connection: Connection, error: Exception) -> None:
+    """Raise if the transaction is gone: what followed would be written outside it, and its commit would do nothing."""
+    if not connection.connection.dbapi_connection.in_transaction:  # type: ignore[union-attr]  # SQLite's own connection
+        raise TransactionLost(str(error)) from error
 
 
 def _in_savepoint(connection: Connection, work: Callable[[Session], Any]) -> Any:  # noqa: ANN401 - whatever the work returns

@@ -10,7 +10,7 @@ from sqlalchemy.exc import IntegrityError, OperationalError
 from app.config import Settings
 from app.db import Database, make_engine
 from app.kit import clock
-from app.kit.writer import Writer, WriterIsBusy
+from app.kit.writer import TransactionLost, Writer, WriterIsBusy, _Item
 from app.models import Visitor
 
 
@@ -77,7 +77,7 @@ def test_readers_cannot_write(database):
 
 def test_a_full_queue_says_so_at_once(settings):
     engine = make_engine(settings.database_url, "write")
-    writer = Writer(engine, queue_length=1)
+    writer = Writer(engine, queue_length=2)
     release, started = threading.Event(), threading.Event()
 
     def hold(_):
@@ -88,7 +88,7 @@ def test_a_full_queue_says_so_at_once(settings):
         held = pool.submit(writer.run, hold)
         started.wait(10)
         waiting = pool.submit(writer.run, add("waits"))
-        while not writer._queue.full():
+        while writer._queue.empty():
             pass
         with pytest.raises(WriterIsBusy):
             writer.run(add("refused"))
@@ -110,3 +110,44 @@ def test_a_locked_file_is_an_error_for_everyone_in_the_group_and_nothing_is_stor
     assert database.write(add("later")) == 1, "it recovers by itself"
     database.close()
     other.dispose()
+
+
+def test_nobody_is_told_that_it_is_stored_when_the_disk_fills_in_the_middle_of_a_group(settings):
+    """SQLite then gives up the whole transaction; a commit of nothing succeeds, and what follows commits by itself."""
+    database = Database(settings)
+    n_pages = database.write(lambda session: session.scalar(text("PRAGMA page_count")))
+    database.write(lambda session: session.execute(text(f"PRAGMA max_page_count={n_pages + 2}")))
+    group = [_Item(add(name)) for name in ("before", "x" * 200_000, "after")]
+    database._writer._commit(group)
+    assert [type(item.future.exception(1)) for item in group] == [TransactionLost] * 3
+    assert count(database) == 0
+    database.write(lambda session: session.execute(text("PRAGMA max_page_count=1000000")))
+    assert database.write(add("later")) == 1, "it recovers by itself"
+    database.close()
+
+
+def test_while_the_file_is_locked_one_tries_and_the_others_are_told_at_once(settings):
+    database = Database(settings, patience_ms=400)
+    other = make_engine(settings.database_url, "write")
+    with other.begin(), ThreadPoolExecutor(8) as pool:
+        with pytest.raises(OperationalError, match="locked"):
+            database.write(add("first"))
+        waves = [pool.submit(database.write, add(str(number))) for number in range(8)]
+        errors = [type(one.exception()) for one in waves]
+    assert sorted(error.__name__ for error in errors) == ["OperationalError"] + ["WriterIsBusy"] * 7
+    assert count(database) == 0
+    assert database.write(add("later")) == 1
+    database.close()
+    other.dispose()
+
+
+def test_closing_while_many_write_answers_everyone(settings):
+    database = Database(settings)
+    with ThreadPoolExecutor(16) as pool:
+        futures = [pool.submit(database.write, add(str(number))) for number in range(300)]
+        futures[20].result(10)
+        database._writer.close()
+        told = [future.exception(10) for future in futures]
+    assert {type(error) for error in told} <= {type(None), WriterIsBusy}
+    assert count(database) == told.count(None)
+    database.close()
