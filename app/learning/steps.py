@@ -35,8 +35,18 @@ FRAME_DIGITS = 5
 """Significant digits of the figures in a frame: enough for the eye, and a third of the bytes."""
 
 
+MOST_VAIN_STARTS = 5
+"""A run that was begun this often without a step forward is given up: it is most likely what kills its workers."""
+LARGE_WORLD = 1000
+"""Squares from which on a single iteration takes a good part of the time between two frames, or more."""
+
+
 class NoLongerWanted(Exception):
     """The run was cancelled, or somebody else ended it."""
+
+
+class KillsWorkers(Exception):
+    """The worker died in this run again and again."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,21 +60,30 @@ class LoadedRun:
 
 
 def begin(database: Database, run_id: str) -> LoadedRun:
-    """Mark the run as running and load its snapshot. Raises NoLongerWanted."""
+    """Mark the run as running and load its snapshot. Raises NoLongerWanted and KillsWorkers."""
 
-    def start(session: Session) -> None:
-        _claim(session, run_id, status="running", started_at=func.coalesce(Run.started_at, clock.now()))
+    def start(session: Session) -> int:
+        _claim(
+            session,
+            run_id,
+            status="running",
+            started_at=func.coalesce(Run.started_at, clock.now()),
+            n_vain_starts=Run.n_vain_starts + 1,
+        )
+        return session.scalars(select(Run.n_vain_starts).where(Run.id == run_id)).one()
 
     with database.read() as session:
         run = session.get_one(Run, run_id)
         world = queries.world_of(session, run).world
         rows = queries.demonstrations_of(session, run)
-    database.write(start)
+    if database.write(start) > MOST_VAIN_STARTS:
+        message = f"The worker died {MOST_VAIN_STARTS} times at the same point of this run, so it was given up."
+        raise KillsWorkers(message)
     problem = to_problem(world, rows, run.rankings, settings=run.settings, seed=run.seed)
     return LoadedRun(run_id, tuple(run.learners), tuple(map(demonstration_from_row, rows)), problem)
 
 
-def advance(database: Database, run: LoadedRun, name: str, *, iterations_at_once: int = 5) -> bool:
+def advance(database: Database, run: LoadedRun, name: str) -> bool:
     """Let a learner go on for a moment; True when it has finished. Raises NoLongerWanted."""
     with database.read() as session:
         if session.get(RunResult, (run.id, name)) is not None:
@@ -75,7 +94,9 @@ def advance(database: Database, run: LoadedRun, name: str, *, iterations_at_once
         state = learner.start(run.problem)  # and its first frame is of what it knows before it has learned anything
     else:
         state = LearningState.from_json(checkpoint.state)
-        until = time.monotonic() + max(FRAME_EVERY_S, FRAME_S_PER_STATE * run.problem.world.n_states)
+        n_states = run.problem.world.n_states
+        iterations_at_once = 1 if n_states >= LARGE_WORLD else 5
+        until = time.monotonic() + max(FRAME_EVERY_S, FRAME_S_PER_STATE * n_states)
         while state.outcome is None and time.monotonic() < until:
             state = learner.advance(run.problem, state, iterations=iterations_at_once)
     frame = learner.frame(run.problem, state)
@@ -122,20 +143,17 @@ def fail(database: Database, run_id: str, reason: str) -> None:
     database.write(store)
 
 
-def _claim(session: Session, run_id: str, **values: object) -> None:
+def _claim(session: Session, run_id: str, **changes: object) -> None:
     """Change a run that is still wanted, in the same transaction as what this step stores. Raises NoLongerWanted."""
     changed = session.execute(
-        update(Run)
-        .where(Run.id == run_id, Run.status.in_(("queued", "running")))
-        .values(values or {"status": "running"})
-        .returning(Run.id)
+        update(Run).where(Run.id == run_id, Run.status.in_(("queued", "running"))).values(changes).returning(Run.id)
     ).first()
     if changed is None:
         raise NoLongerWanted
 
 
 def _store_progress(session: Session, run_id: str, name: str, state: LearningState, frame: Frame) -> None:
-    _claim(session, run_id)
+    _claim(session, run_id, n_vain_starts=0)
     values = {"run_id": run_id, "learner": name, "state": state.to_json()}
     session.execute(
         insert(RunCheckpoint).values(values).on_conflict_do_update(index_elements=["run_id", "learner"], set_=values)
@@ -144,7 +162,7 @@ def _store_progress(session: Session, run_id: str, name: str, state: LearningSta
 
 
 def _store_result(session: Session, run_id: str, name: str, result: LearningResult, frame: Frame) -> None:
-    _claim(session, run_id)
+    _claim(session, run_id, n_vain_starts=0)
     data = result.to_json()
     session.execute(insert(RunResult).values(run_id=run_id, learner=name, result=data, finished_at=clock.now()))
     session.execute(delete(RunCheckpoint).where(RunCheckpoint.run_id == run_id, RunCheckpoint.learner == name))

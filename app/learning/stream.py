@@ -44,6 +44,8 @@ class Watcher:
         self._watched[run_id] += 1
         self._wake_up()
         try:
+            if after > await to_thread.run_sync(self._newest_number, run_id):
+                after = 0  # not a number of ours: waiting for the next one could be waiting for ever
             while True:
                 events = await to_thread.run_sync(self._read, run_id, after)
                 for event in events:
@@ -95,6 +97,9 @@ class Watcher:
                         self._newest = newest
                         self._news.notify_all()
             await asyncio.sleep(LOOK_EVERY_S)
+
+    def _newest_number(self, run_id: str) -> int:
+        return self._last_numbers([run_id]).get(run_id, 0)
 
     def _last_numbers(self, run_ids: list[str]) -> dict[str, int]:
         with self._database.read() as session:

@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 import threading
+import time
 
 from app.config import Settings
 
@@ -12,7 +13,9 @@ logger = logging.getLogger(__name__)
 
 SHORTEST_PAUSE_S = 0.5
 LONGEST_PAUSE_S = 30.0
-STOP_WITHIN_S = 5.0
+SOUND_AFTER_S = 5.0
+"""A worker that has lived this long can start: its death was an accident, and the pauses begin anew."""
+STOP_WITHIN_S = 2.0
 
 ONE_THREAD_EACH = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL")}
 """A worker uses one core: BLAS threads of several workers would fight over them."""
@@ -38,17 +41,22 @@ class Supervisor:
     def stop(self) -> None:
         """Stop the workers and wait for them."""
         self._stopping.set()
-        for process in list(self._processes.values()):
-            _close(process)
-        for thread in self._threads:
-            thread.join(STOP_WITHIN_S)
+        processes = list(self._processes.values())
+        for process in processes:
+            if process.stdin is not None:
+                process.stdin.close()
+        for process in processes:
+            _wait_or_kill(process)
 
     def _keep_running(self, name: str) -> None:
         pause_s = SHORTEST_PAUSE_S
         while not self._stopping.is_set():
             process = self._start(name)
             self._processes[name] = process
+            started = time.monotonic()
             code = process.wait()
+            if time.monotonic() - started > SOUND_AFTER_S:
+                pause_s = SHORTEST_PAUSE_S
             if self._stopping.is_set():
                 return
             logger.warning("%s ended with code %s; starting it again in %.1f s", name, code, pause_s)
@@ -61,9 +69,7 @@ class Supervisor:
         return subprocess.Popen(command, stdin=subprocess.PIPE, env=environment)  # noqa: S603 - our own command
 
 
-def _close(process: subprocess.Popen[bytes]) -> None:
-    if process.stdin is not None:
-        process.stdin.close()
+def _wait_or_kill(process: subprocess.Popen[bytes]) -> None:
     try:
         process.wait(STOP_WITHIN_S)
     except subprocess.TimeoutExpired:

@@ -11,29 +11,27 @@ import signal
 import sys
 import threading
 import time
+from collections.abc import Callable
+from typing import ParamSpec, TypeVar
 
 from dbos import DBOS, DBOSConfig, DBOSPortableJSONSerializer
-from filelock import FileLock
-from sqlalchemy import delete, select
-from sqlalchemy.dialects.sqlite import insert
-from sqlalchemy.exc import OperationalError
-from sqlalchemy.orm import Session
+from filelock import FileLock, Timeout
 
 from app.config import Settings
-from app.db import WORKER_PATIENCE_MS, Database, make_engine, migrate
-from app.kit import clock
+from app.db import CANNOT_WRITE, WORKER_PATIENCE_MS, Database, make_engine, migrate
 from app.learning import steps
 from app.learning.jobs import APPLICATION, APPLICATION_VERSION, QUEUE, WORKFLOW
-from app.models import Run, Worker
+from app.learning.upkeep import Upkeep, lock_of
 from irl_core import IrlError
 
 logger = logging.getLogger(__name__)
+P = ParamSpec("P")
+T = TypeVar("T")
 
-SIGN_OF_LIFE_EVERY_S = 3.0
+UPKEEP_EVERY_S = 3.0
 LOOK_FOR_RUNS_EVERY_S = 0.05
-MOST_ATTEMPTS = 5
-"""A run whose worker dies this often is given up: it is most likely what kills them."""
-DEAD_JOB_STATUSES = ("ERROR", "CANCELLED", "MAX_RECOVERY_ATTEMPTS_EXCEEDED")
+TRY_AGAIN_AFTER_S = 1.0
+SAY_GOODBYE_WITHIN_S = 1.0
 NICENESS = 10
 """Workers give way to the web server: at equal rights one doubled its median latency."""
 
@@ -42,97 +40,121 @@ def work(settings: Settings, *, name: str, follow_stdin: bool = False) -> None:
     """Take runs from the queue until told to stop. With `follow_stdin`, the end of standard input says so."""
     if hasattr(os, "nice"):
         os.nice(NICENESS)
+    stop = _sign_to_stop(follow_stdin=follow_stdin)
     migrate(settings)
-    with FileLock(settings.data_dir / f"{name}.lock"):
-        database = Database(settings, patience_ms=WORKER_PATIENCE_MS)
-        _define_workflow(database)
-        DBOS(
-            config=DBOSConfig(
-                name=APPLICATION,
-                application_version=APPLICATION_VERSION,
-                executor_id=name,
-                system_database_engine=make_engine(settings.database_url, "jobs", patience_ms=WORKER_PATIENCE_MS),
-                serializer=DBOSPortableJSONSerializer(),
-                run_migrations=False,
-                use_listen_notify=False,
-                log_level="WARNING",
-            )
-        )
-        DBOS.launch()
-        DBOS.register_queue(
-            QUEUE, worker_concurrency=1, partition_concurrency=1, polling_interval_sec=LOOK_FOR_RUNS_EVERY_S
-        )
-        _stay_alive(database, name, follow_stdin=follow_stdin)
+    lock = lock_of(settings.data_dir, name)
+    if not _wait_for(lock, stop):
+        return
+    code = 1
+    try:
+        _work(settings, name, stop)
+        code = 0
+    except Exception:
+        logger.exception("%s cannot go on", name)
+    finally:
+        os._exit(code)  # the job engine's threads would keep a process alive that does nothing any more
 
 
 def learn_now(database: Database, run_id: str) -> None:
     """Carry a run to its end, whatever the end is."""
     try:
-        run = steps.begin(database, run_id)
+        run = _insist(steps.begin, database, run_id)
         for learner in run.learners:
-            while not steps.advance(database, run, learner):
+            while not _insist(steps.advance, database, run, learner):
                 pass
-        steps.finish(database, run)
+        _insist(steps.finish, database, run)
     except steps.NoLongerWanted:
         logger.info("Run %s is no longer wanted", run_id)
-    except IrlError as error:
-        steps.fail(database, run_id, str(error))
+    except (IrlError, steps.KillsWorkers) as error:
+        _insist(steps.fail, database, run_id, str(error))
     except MemoryError:
-        steps.fail(database, run_id, "The learners ran out of memory. Try a smaller world or fewer learners.")
-    except OperationalError:
-        raise  # the database, not the run: the job engine tries again
+        reason = "The learners ran out of memory. Try a smaller world or fewer learners."
+        _insist(steps.fail, database, run_id, reason)
     except Exception as error:
         logger.exception("Run %s failed", run_id)
         reason = f"Something went wrong inside the learner ({type(error).__name__}); the server's log has the details."
-        steps.fail(database, run_id, reason)
+        _insist(steps.fail, database, run_id, reason)
 
 
-def _define_workflow(database: Database) -> None:
-    @DBOS.workflow(name=WORKFLOW, max_recovery_attempts=MOST_ATTEMPTS)
-    def learn(run_id: str) -> None:
-        while True:
-            try:
-                return learn_now(database, run_id)
-            except OperationalError:
-                logger.exception("The database could not take a step of run %s; trying again", run_id)
-                time.sleep(1.0)
+def _insist(step: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> T:
+    """Do a step, again and again while it is the database that cannot take it."""
+    while True:
+        try:
+            return step(*args, **kwargs)
+        except CANNOT_WRITE:
+            logger.warning("The database could not take a step of a run; trying again", exc_info=True)
+            time.sleep(TRY_AGAIN_AFTER_S)
 
 
-def _stay_alive(database: Database, name: str, *, follow_stdin: bool) -> None:
-    """Show a sign of life every few seconds, and end runs that no job will end, until told to stop."""
+def _sign_to_stop(*, follow_stdin: bool) -> threading.Event:
     stop = threading.Event()
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: stop.set())
     if follow_stdin:
         threading.Thread(target=_until_stdin_ends, args=(stop,), daemon=True).start()
-    while True:
-        try:
-            database.write(lambda session: _show_life(session, name))
-            _end_abandoned_runs(database)
-        except OperationalError:
-            logger.exception("The database could not take a sign of life")
-        if stop.wait(SIGN_OF_LIFE_EVERY_S):
-            break
-    try:
-        database.write(lambda session: session.execute(delete(Worker).where(Worker.name == name)))
-    finally:
-        os._exit(0)
+    return stop
 
 
 def _until_stdin_ends(stop: threading.Event) -> None:
-    sys.stdin.buffer.read()
+    while os.read(sys.stdin.fileno(), 1024):  # not sys.stdin.read: its lock would hold up the interpreter's end
+        pass
     stop.set()
 
 
-def _show_life(session: Session, name: str) -> None:
-    values = {"name": name, "pid": os.getpid(), "seen_at": clock.now()}
-    session.execute(insert(Worker).values(values).on_conflict_do_update(index_elements=["name"], set_=values))
+def _wait_for(lock: FileLock, stop: threading.Event) -> bool:
+    """Take the lock as soon as it is free; False when told to stop before."""
+    while not stop.is_set():
+        try:
+            lock.acquire(timeout=0.5)
+        except Timeout:
+            continue
+        return True
+    return False
 
 
-def _end_abandoned_runs(database: Database) -> None:
-    """Fail the runs whose job is over although they are not: their workers died again and again."""
-    with database.read() as session:
-        open_runs = session.scalars(select(Run.id).where(Run.status.in_(("queued", "running")))).all()
-    for job in DBOS.list_workflows(workflow_ids=list(open_runs), status=list(DEAD_JOB_STATUSES)) if open_runs else []:
-        reason = f"The worker died in this run {MOST_ATTEMPTS} times, so it was given up."
-        steps.fail(database, job.workflow_id, reason)
+def _work(settings: Settings, name: str, stop: threading.Event) -> None:
+    database = Database(settings, patience_ms=WORKER_PATIENCE_MS)
+    at_work: set[str] = set()
+    _define_workflow(database, at_work)
+    DBOS(
+        config=DBOSConfig(
+            name=APPLICATION,
+            application_version=APPLICATION_VERSION,
+            executor_id=name,
+            system_database_engine=make_engine(settings.database_url, "jobs", patience_ms=WORKER_PATIENCE_MS),
+            serializer=DBOSPortableJSONSerializer(),
+            run_migrations=False,
+            use_listen_notify=False,
+            log_level="WARNING",
+        )
+    )
+    DBOS.launch()
+    DBOS.register_queue(
+        QUEUE, worker_concurrency=1, partition_concurrency=1, polling_interval_sec=LOOK_FOR_RUNS_EVERY_S
+    )
+    _keep_up(Upkeep(database, name=name, data_dir=settings.data_dir, at_work=at_work), stop)
+
+
+def _define_workflow(database: Database, at_work: set[str]) -> None:
+    """Tell the job engine what a job is. It need not count deaths: `steps.begin` does, and knows of progress."""
+
+    @DBOS.workflow(name=WORKFLOW, max_recovery_attempts=None)
+    def learn(run_id: str) -> None:
+        at_work.add(run_id)
+        try:
+            learn_now(database, run_id)
+        finally:
+            at_work.discard(run_id)
+
+
+def _keep_up(upkeep: Upkeep, stop: threading.Event) -> None:
+    """See to the upkeep until told to stop."""
+    while not stop.is_set():
+        try:
+            upkeep.look_after()
+        except Exception:
+            logger.exception("The upkeep could not be done; trying again")
+        stop.wait(UPKEEP_EVERY_S)
+    goodbye = threading.Thread(target=upkeep.say_goodbye, daemon=True)
+    goodbye.start()
+    goodbye.join(SAY_GOODBYE_WITHIN_S)  # a locked file must not hold up the end

@@ -33,6 +33,9 @@ class Run(Base):
     versions: Mapped[dict[str, str]] = mapped_column(JSON, comment="the software that was asked")
     status: Mapped[str] = mapped_column(String(9))
     reason: Mapped[str | None] = mapped_column(comment="why it failed, in words for the person who asked")
+    n_vain_starts: Mapped[int] = mapped_column(
+        default=0, server_default="0", comment="how often a worker has begun it since its last step forward"
+    )
     comparison: Mapped[dict[str, Any] | None] = mapped_column(JSON(none_as_null=True))
     rollouts: Mapped[dict[str, Any] | None] = mapped_column(JSON(none_as_null=True))
     created_at: Mapped[datetime]
