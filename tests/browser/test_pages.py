@@ -78,10 +78,10 @@ def test_pictures(browser: Browser, base_url: str, screenshots: Path | None, dev
     page = context.new_page()
     with watched(page, base_url):
         page.goto("/?seed=5")
-        take(page, screenshots / f"home-{device}-{scheme}.png", full_page=False)
+        take(page, screenshots / f"home-{device}-{scheme}.png")
         for name, path in paths(*walk.prepared(page, base_url)).items():
             page.goto(path)
-            take(page, screenshots / f"{name}-{device}-{scheme}.png", full_page=device == "phone")
+            take(page, screenshots / f"{name}-{device}-{scheme}.png")
     context.close()
 
 
@@ -94,10 +94,10 @@ def paths(world_id: str, run_id: str) -> dict[str, str]:
     }
 
 
-def take(page: Page, path: Path, *, full_page: bool) -> None:
+def take(page: Page, path: Path) -> None:
     page.wait_for_load_state("networkidle")
     page.wait_for_timeout(300)  # boards are drawn in the next frames
-    page.screenshot(path=path, full_page=full_page)
+    page.screenshot(path=path)
 
 
 def check_axe(page: Page, where: str) -> None:
