@@ -43,8 +43,7 @@ class Supervisor:
         self._stopping.set()
         processes = list(self._processes.values())
         for process in processes:
-            if process.stdin is not None:
-                process.stdin.close()
+            _close_pipe(process)
         for process in processes:
             _wait_or_kill(process)
 
@@ -55,6 +54,7 @@ class Supervisor:
             self._processes[name] = process
             started = time.monotonic()
             code = process.wait()
+            _close_pipe(process)
             if time.monotonic() - started > SOUND_AFTER_S:
                 pause_s = SHORTEST_PAUSE_S
             if self._stopping.is_set():
@@ -67,6 +67,11 @@ class Supervisor:
         environment = os.environ | ONE_THREAD_EACH | {"IRLFR_DATABASE_URL": self._settings.database_url}
         command = [sys.executable, "-m", "app.cli", "worker", "--name", name, "--follow-stdin"]
         return subprocess.Popen(command, stdin=subprocess.PIPE, env=environment)  # noqa: S603 - our own command
+
+
+def _close_pipe(process: subprocess.Popen[bytes]) -> None:
+    if process.stdin is not None:
+        process.stdin.close()
 
 
 def _wait_or_kill(process: subprocess.Popen[bytes]) -> None:
