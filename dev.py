@@ -72,7 +72,7 @@ def check(_arguments: list[str]) -> int:
         "format": [PYTHON, "-m", "ruff", "format", "--check", "--quiet", "."],
         "lint": [PYTHON, "-m", "ruff", "check", "."],
         "types": [PYTHON, "-m", "mypy"],
-        "import contracts": [SCRIPTS / "lint-imports"],
+        "import contracts": [SCRIPTS / "lint-imports", "--no-logo"],
         "JavaScript types": [*node_command(), node_bin / "typescript" / "bin" / "tsc", "-p", "."],
         "JavaScript format and lint": [*node_command(), node_bin / "@biomejs" / "biome" / "bin" / "biome", "check"],
         "docs": [PYTHON, "-m", "pytest", "-q", "--no-header", "-p", "no:cacheprovider", "tests/test_docs.py"],
