@@ -2,6 +2,7 @@
 
 import json
 import os
+import signal
 import socket
 import sys
 from collections.abc import Mapping
@@ -55,6 +56,7 @@ def serve(
         )
     )
     supervisor = Supervisor(settings)
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))  # uvicorn raises it once more at its end; `finally` must run
     supervisor.start()
     typer.echo(f"IRLFR is at {_address(settings)}")
     try:

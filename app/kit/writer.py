@@ -27,6 +27,9 @@ GROUP_SIZE = 64
 class WriterIsBusy(Exception):
     """The queue is full or closed, or the file cannot be written just now: try again a little later."""
 
+    def __init__(self, message: str = "too much is waiting to be written") -> None:
+        super().__init__(message)
+
 
 class TransactionLost(WriterIsBusy):
     """The database gave up the whole transaction in the middle of it, as SQLite does when the disk is full."""
