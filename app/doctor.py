@@ -5,6 +5,7 @@ import shutil
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+import httpx
 import sqlalchemy as sa
 from sqlalchemy.exc import SQLAlchemyError
 
@@ -14,6 +15,7 @@ from app.learning.queries import worker_is_alive
 from app.templating import MissingAssets, Pages
 
 ENOUGH_DISK_BYTES = 200 * 2**20
+ANSWER_WITHIN_S = 5.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +39,7 @@ def checks(settings: Settings) -> Iterator[Check]:
         yield Check("database", is_well=False, found=f"there is no file {settings.database_path}", remedy=remedy)
         return
     yield from _database(settings)
+    yield _server(settings)
 
 
 def _sqlite() -> Check:
@@ -86,6 +89,21 @@ def _database(settings: Settings) -> Iterator[Check]:
         yield Check("database", is_well=False, found=f"cannot be read: {error.__cause__ or error}", remedy=remedy)
     finally:
         database.close()
+
+
+def _server(settings: Settings) -> Check:
+    address = f"http://{settings.host}:{settings.port}"
+    try:
+        answer = httpx.get(f"{address}/readyz", timeout=ANSWER_WITHIN_S, trust_env=False)
+    except httpx.HTTPError as error:
+        remedy = "Start it: `irlfr serve`; or set IRLFR_HOST and IRLFR_PORT to where it listens."
+        return Check(
+            "server", is_well=False, found=f"{address} does not answer ({type(error).__name__})", remedy=remedy
+        )
+    if answer.status_code == httpx.codes.OK:
+        return Check("server", is_well=True, found=f"{address} is ready")
+    remedy = "Another program may listen there, or the server's log says what it lacks."
+    return Check("server", is_well=False, found=f"{address} answers {answer.status_code}", remedy=remedy)
 
 
 def _worker(database: Database) -> Check:

@@ -1,6 +1,8 @@
 """The command line, in processes of its own where it matters and in this one where it does not."""
 
 import json
+import socket
+import threading
 
 from typer.testing import CliRunner
 
@@ -75,3 +77,25 @@ def test_every_command_has_help():
         done = runner.invoke(cli, [command, "--help"])
         assert done.exit_code == 0
         assert len(done.output) > 100
+
+
+def test_doctor_asks_the_server(settings, monkeypatch):
+    """A server that answers something else than ready, then none."""
+    monkeypatch.setenv("IRLFR_DATABASE_URL", settings.database_url)
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        port = listener.getsockname()[1]
+        monkeypatch.setenv("IRLFR_PORT", str(port))
+
+        def answer() -> None:
+            connection, _ = listener.accept()
+            with connection:
+                connection.recv(4096)
+                connection.sendall(b"HTTP/1.1 503 Busy\r\nContent-Length: 0\r\nConnection: close\r\n\r\n")
+
+        thread = threading.Thread(target=answer, daemon=True)
+        thread.start()
+        assert f"http://127.0.0.1:{port} answers 503" in runner.invoke(cli, ["doctor"]).output
+        thread.join(5)
+    found = runner.invoke(cli, ["doctor"])
+    assert "does not answer" in found.output
+    assert found.exit_code == 1
