@@ -11,7 +11,11 @@ import { number } from "#js/lib/format.js";
 
 const SMALLEST_ARROWS = 5;
 const SMALLEST_HEADS = 18;
-const SMALLEST_FIGURES = 17;
+/** Below this side (CSS pixels) a square has no room for its figure: `board/tags.js` shows the few that matter. */
+export const SMALLEST_FIGURES = 17;
+/** Below this side a square has room for its arrows or its figure, not for both; figures, asked for, come first. */
+const SMALLEST_BOTH = 30;
+const SMALLEST_TYPE = 8.5;
 const FAINTEST_ARROW = 0.03;
 
 /** @param {Scene} scene */
@@ -20,8 +24,13 @@ export function drawInk(scene) {
   context.clearRect(0, 0, context.canvas.width, context.canvas.height);
   if (view.visits) drawVisits(scene);
   for (const index of view.paths.keys()) drawPath(scene, index);
-  if (view.arrows) drawArrows(scene);
+  if (view.arrows && !(view.numbers && isTight(scene))) drawArrows(scene);
   if (view.numbers) drawFigures(scene);
+}
+
+/** Too small for arrows and figures together. @param {Scene} scene */
+function isTight({ geometry: { cell, ratio } }) {
+  return cell >= SMALLEST_FIGURES * ratio && cell < SMALLEST_BOTH * ratio;
 }
 
 /** Discs whose area is proportional to the visits. @param {Scene} scene */
@@ -121,13 +130,16 @@ function drawFadingLine(context, points, { colour, halo, width, opacity }) {
   }
 }
 
-/** Four arrows a square, length ∝ probability, all of one ink in one path. @param {Scene} scene */
+/** Four arrows a square, length ∝ probability, all of one ink in one path. Above a figure they stand higher and smaller. @param {Scene} scene */
 function drawArrows({ context, geometry, world, view, look, theme }) {
   const { cell, ratio } = geometry;
   const arrows = view.arrows;
   if (cell < SMALLEST_ARROWS * ratio || !arrows) return;
+  const hasHeads = cell >= SMALLEST_HEADS * ratio;
+  const hasFigures = view.numbers && cell >= SMALLEST_FIGURES * ratio;
+  const [reach, middle] = hasFigures ? [0.25, 0.36] : [0.42, 0.5];
   const lines = [new Path2D(), new Path2D()];
-  const heads = [new Path2D(), new Path2D()];
+  const solids = [new Path2D(), new Path2D()];
   for (let state = 0; state < arrows.length; state++) {
     if (world.goals.includes(state) || colourOf(world, state) === "wall") continue;
     const [row, col] = placeOf(world, state);
@@ -136,19 +148,22 @@ function drawArrows({ context, geometry, world, view, look, theme }) {
       const probability = arrows[state]?.[action] ?? 0;
       if (!(probability > FAINTEST_ARROW)) continue;
       const [dy, dx] = DELTAS[action] ?? [0, 0];
-      const [x, y] = [(col + 0.5) * cell, (row + 0.5) * cell];
-      const length = 0.42 * cell * Math.min(1, probability);
+      const [x, y] = [(col + 0.5) * cell, (row + middle) * cell];
+      const length = reach * cell * Math.min(1, probability);
+      if (!hasHeads) {
+        dart(solids[ink], { x, y, dx, dy, length: length * 1.1, width: Math.max(1.1 * ratio, cell * 0.13) });
+        continue;
+      }
       const [tipX, tipY] = [x + dx * length, y + dy * length];
       lines[ink]?.moveTo(x, y);
       lines[ink]?.lineTo(tipX, tipY);
-      if (cell >= SMALLEST_HEADS * ratio)
-        arrowHead(heads[ink], { tipX, tipY, dx, dy, size: Math.min(cell * 0.11, length * 0.6) });
+      arrowHead(solids[ink], { tipX, tipY, dx, dy, size: Math.min(cell * 0.11, length * 0.6) });
     }
   }
   context.lineCap = "round";
   context.lineWidth = Math.max(ratio, cell * 0.04);
   strokeInks(context, theme, lines, 0.9);
-  fillInks(context, theme, heads, 0.9);
+  fillInks(context, theme, solids, 0.9);
 }
 
 /** @param {Path2D | undefined} path @param {{tipX: number, tipY: number, dx: number, dy: number, size: number}} arrow */
@@ -160,11 +175,21 @@ function arrowHead(path, { tipX, tipY, dx, dy, size }) {
   path?.closePath();
 }
 
+/** Where a head would be a speck, the whole arrow is one: broad at the square's middle, pointed at its tip. @param {Path2D | undefined} path @param {{x: number, y: number, dx: number, dy: number, length: number, width: number}} arrow */
+function dart(path, { x, y, dx, dy, length, width }) {
+  path?.moveTo(x + dx * length, y + dy * length);
+  path?.lineTo(x - dy * width, y + dx * width);
+  path?.lineTo(x + dy * width, y - dx * width);
+  path?.closePath();
+}
+
 /** @param {Scene} scene */
-function drawFigures({ context, geometry, world, view, look, theme }) {
+function drawFigures(scene) {
+  const { context, geometry, world, view, look, theme } = scene;
   const { cell, ratio } = geometry;
   if (cell < SMALLEST_FIGURES * ratio) return;
-  const size = Math.min(cell * (view.arrows ? 0.21 : 0.3), 20 * ratio);
+  const isShared = view.arrows !== null && !isTight(scene);
+  const size = Math.min(Math.max(cell * (isShared ? 0.22 : 0.3), SMALLEST_TYPE * ratio), 20 * ratio);
   context.font = `600 ${size}px ${getComputedStyle(context.canvas).fontFamily}`;
   context.textAlign = "center";
   context.textBaseline = "middle";
@@ -172,12 +197,12 @@ function drawFigures({ context, geometry, world, view, look, theme }) {
     if (colourOf(world, state) === "wall") continue;
     const [row, col] = placeOf(world, state);
     const value = view.values ? (view.values[state] ?? 0) : rewardOf(world, state);
-    const isBelow = view.arrows !== null || world.goals.includes(state);
+    const isBelow = isShared || world.goals.includes(state);
     const text = number(value, Math.abs(value) >= 10 ? 0 : 1);
     context.fillStyle = look.isDark[state] ? theme.inkDark : theme.inkLight;
     plate(context, look, state, {
       x: (col + 0.5) * cell,
-      y: (row + (isBelow ? 0.84 : 0.5)) * cell,
+      y: (row + (isBelow ? 0.82 : 0.5)) * cell,
       width: context.measureText(text).width,
       size,
     });

@@ -6,6 +6,7 @@
 import { drawInk } from "#js/board/ink.js";
 import { drawSquares, lookOf } from "#js/board/render.js";
 import { DELTAS, EMPTY_VIEW, placeOf } from "#js/board/state.js";
+import { figureTags } from "#js/board/tags.js";
 import { onThemeChange, theme } from "#js/board/theme.js";
 import { isTaken } from "#js/lib/keys.js";
 
@@ -35,6 +36,9 @@ export class IrlBoard extends HTMLElement {
   #squares = /** @type {HTMLCanvasElement} */ (make("canvas", "board-squares"));
   #ink = /** @type {HTMLCanvasElement} */ (make("canvas", "board-ink"));
   #agents = make("div", "board-agents");
+  #tags = make("div", "board-tags");
+  /** @type {number | null} the square under the pointer */
+  #pointed = null;
 
   connectedCallback() {
     this.#life = new AbortController();
@@ -42,7 +46,7 @@ export class IrlBoard extends HTMLElement {
     this.#adopt("world");
     this.#adopt("view");
     if (!this.#stage.isConnected) {
-      this.#stage.append(this.#squares, this.#ink, this.#agents);
+      this.#stage.append(this.#squares, this.#ink, this.#agents, this.#tags);
       this.#stage.setAttribute("aria-hidden", "true");
       // A clone of a board brings a copy of the other's stage along, empty as cloned canvases are.
       this.querySelector(".board-stage")?.remove();
@@ -57,6 +61,8 @@ export class IrlBoard extends HTMLElement {
     document.addEventListener("keydown", (event) => this.#onKey(event, true), { signal });
     document.addEventListener("keyup", (event) => this.#onKey(event, false), { signal });
     window.addEventListener("blur", () => this.#holdNumbers(false), { signal });
+    this.addEventListener("pointermove", (event) => this.#point(event), { signal });
+    this.addEventListener("pointerleave", () => this.#point(null), { signal });
     this.#redrawAll();
   }
 
@@ -195,6 +201,7 @@ export class IrlBoard extends HTMLElement {
       this.#inkIsOld = false;
     }
     this.#placeAgents(world, view.agents);
+    this.#placeTags(world, view);
   }
 
   /** @param {HTMLCanvasElement} canvas @param {World} world @param {View} view @param {import("#js/board/render.js").Look} look */
@@ -246,6 +253,27 @@ export class IrlBoard extends HTMLElement {
       token.dataset.state = String(agent.state);
       token.dataset.facing = String(agent.facing ?? "");
     });
+  }
+
+  /** @param {World} world @param {View} view */
+  #placeTags(world, view) {
+    const tags = figureTags(world, view, { cell: this.#cell, pointed: this.#pointed });
+    if (tags.length === 0 && this.#tags.childElementCount === 0) return;
+    const notes = tags.map(({ x, y, text }) => {
+      const note = make("span", "board-tag");
+      note.textContent = text;
+      note.style.translate = `calc(${x}px - 50%) calc(${y}px - 50%)`;
+      return note;
+    });
+    this.#tags.replaceChildren(...notes);
+  }
+
+  /** @param {PointerEvent | null} event */
+  #point(event) {
+    const pointed = event?.pointerType === "mouse" ? this.stateAt(event.clientX, event.clientY) : null;
+    if (pointed === this.#pointed) return;
+    this.#pointed = pointed;
+    if (this.#numbersHeld || this.#view.numbers) this.#schedule();
   }
 
   /** @param {KeyboardEvent} event @param {boolean} isDown */

@@ -1,6 +1,8 @@
 /** Who may listen to the keyboard just now. */
 
-const TYPING = "input:not([type=button], [type=checkbox]), textarea, select, [contenteditable]";
+/** Where letters are text or choose an option; a slider, a box or a radio button has no use for them. */
+const TYPING =
+  "input:not([type=button], [type=checkbox], [type=radio], [type=range]), textarea, select, [contenteditable]";
 
 /** True when a key belongs to something else: a field, an open dialog or menu, a browser shortcut. @param {KeyboardEvent} event */
 export function isTaken(event) {
