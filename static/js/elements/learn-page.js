@@ -9,7 +9,15 @@ import { marker } from "#js/charts/marker.js";
 import { chartInWords, figuresTable, measureHelp, measureTitle } from "#js/learning/chart-words.js";
 import { FrameStore } from "#js/learning/frame-store.js";
 import { LearnerPanel } from "#js/learning/learner-panel.js";
-import { describeMaterial, isOutdated, untouched, wayThere, weighted } from "#js/learning/material.js";
+import {
+  describeMaterial,
+  isOutdated,
+  lacksFinished,
+  missingWith,
+  untouched,
+  wayThere,
+  weighted,
+} from "#js/learning/material.js";
 import { RunProgress } from "#js/learning/progress.js";
 import { followRun } from "#js/learning/run-stream.js";
 import { SettingsForm } from "#js/learning/settings-form.js";
@@ -17,12 +25,15 @@ import { Timeline } from "#js/learning/timeline.js";
 import { announce } from "#js/lib/announce.js";
 import { ApiError, api } from "#js/lib/api.js";
 import { pageData } from "#js/lib/page-data.js";
+import { setStep } from "#js/lib/path.js";
 
 export class LearnPage extends HTMLElement {
   #life = new AbortController();
   #stream = new AbortController();
   /** @type {LearnPageData} */
   #data = pageData();
+  /** What each learner misses at the default settings. */
+  #missing = new Map(this.#data.learners.map(({ name, missing }) => [name, missing]));
   #store = new FrameStore();
   #timeline = new Timeline();
   /** @type {RunProgress | null} */
@@ -44,8 +55,9 @@ export class LearnPage extends HTMLElement {
   connectedCallback() {
     this.#life = new AbortController();
     const { signal } = this.#life;
-    this.#buildPanels();
     this.#settings = new SettingsForm(this.#part("form"), this.#data.settings, this.#data.run?.settings ?? {});
+    this.#weighSettings();
+    this.#buildPanels();
     this.#chart = new ConvergenceChart(this.#part("chart"), this.#store, {
       learners: this.#data.learners.map(({ name }) => name),
       onPick: (iteration) => this.#hold(iteration),
@@ -70,6 +82,7 @@ export class LearnPage extends HTMLElement {
 
   /** Ask for a run of the chosen learners and watch it. */
   async learn() {
+    if (this.#isAsking) return;
     const learners = this.#panels.filter((panel) => panel.checkbox.checked).map((panel) => panel.learner.name);
     const asked = this.#settings?.read();
     if (learners.length === 0) return this.#complain("Choose at least one learner: tick the box above its board.");
@@ -97,6 +110,28 @@ export class LearnPage extends HTMLElement {
       await api.post(`/runs/${run.id}/cancellation`, {});
     } catch (error) {
       this.#refused(error);
+    }
+  }
+
+  /** Learn from failures that never reached the goal, too. */
+  includeUnfinished() {
+    if (this.#settings) this.#settings.unfinishedFailures = "include";
+    this.#weighSettings();
+    announce("Failures that never reached the goal are included now.");
+    this.#part(this.#part("learn").hidden ? "cancel" : "learn").focus();
+    this.#schedule();
+  }
+
+  /** What a learner misses depends on whether unfinished failures count. */
+  #weighSettings() {
+    const { learners, demonstrations, rankings } = this.#data;
+    const unfinished = this.#settings?.unfinishedFailures ?? "leave_out";
+    for (const learner of learners) {
+      const before = learner.missing;
+      const atDefault = { ...learner, missing: this.#missing.get(learner.name) ?? null };
+      learner.missing = missingWith(atDefault, demonstrations, rankings, unfinished);
+      const panel = this.#panels.find((one) => one.learner === learner);
+      if (panel && learner.missing !== before) panel.weigh();
     }
   }
 
@@ -237,6 +272,7 @@ export class LearnPage extends HTMLElement {
   }
 
   #paintWords() {
+    const focused = document.activeElement;
     const { run, demonstrations, rankings, learners } = this.#data;
     const progress = this.#progress;
     const isRunning = progress !== null && !progress.isOver;
@@ -257,12 +293,29 @@ export class LearnPage extends HTMLElement {
     this.#part("learn").textContent = run ? "Learn again" : "Learn";
     this.#part("learn").classList.toggle("button--primary", !isDone || isOld);
     this.#part("compare").classList.toggle("button--primary", !isOld);
+    this.#part("include").hidden = isRunning || !this.#isStuckOnUnfinished;
     this.#paintWayThere(canLearn);
     this.#paintPath(progress?.status ?? "");
     this.#lock(isRunning || this.#isAsking);
+    this.#keepFocus(focused);
     this.dataset.status = progress?.status ?? "none";
     this.dataset.frames = String(this.#store.size);
     this.dataset.run = run?.id ?? "";
+  }
+
+  get #isStuckOnUnfinished() {
+    const { learners, demonstrations } = this.#data;
+    const isLeftOut = this.#settings?.unfinishedFailures !== "include";
+    return isLeftOut && learners.some((learner) => learner.missing && lacksFinished(demonstrations, learner));
+  }
+
+  /** Learn becomes Cancel and Cancel becomes Compare under the finger: the focus goes along. @param {Element | null} focused */
+  #keepFocus(focused) {
+    const hasVanished = focused instanceof HTMLElement && focused.hidden && this.contains(focused);
+    if (!hasVanished) return;
+    for (const name of ["cancel", "compare", "learn"]) {
+      if (!this.#part(name).hidden) return this.#part(name).focus();
+    }
   }
 
   /** The way to what the first learner that cannot start misses. @param {boolean} canLearn */
@@ -272,7 +325,7 @@ export class LearnPage extends HTMLElement {
     const link = this.#part("way-there");
     link.hidden = !stuck || (this.#progress !== null && !this.#progress.isOver);
     if (!stuck) return;
-    const way = wayThere(world, demonstrations, stuck);
+    const way = wayThere(world, demonstrations, stuck, this.#settings?.unfinishedFailures);
     link.href = way.href;
     link.textContent = way.text;
     link.classList.toggle("button--primary", !canLearn);
@@ -280,13 +333,9 @@ export class LearnPage extends HTMLElement {
 
   /** The path at the top of the page moves on with the run. @param {string} status */
   #paintPath(status) {
-    const state = document.querySelector('[data-path-state="learn"]');
-    if (state && status && state.textContent !== status) state.textContent = status;
-    const step = document.querySelector('.path-step[data-step="compare"]');
-    if (!step || status !== "done") return;
-    step.setAttribute("href", this.#part("compare").href);
-    step.removeAttribute("aria-disabled");
-    step.removeAttribute("role");
+    if (!status) return;
+    setStep("learn", { state: status, isDone: status === "done" });
+    if (status === "done") setStep("compare", { href: this.#part("compare").href });
   }
 
   #paintTimeline() {
@@ -358,6 +407,7 @@ export class LearnPage extends HTMLElement {
       event.target instanceof Element ? event.target.closest("[data-action]")?.getAttribute("data-action") : null;
     if (action === "learn") this.learn();
     if (action === "cancel") this.cancel();
+    if (action === "include") this.includeUnfinished();
     if (action === "play-back") {
       if (this.#timeline.isPlaying) this.#timeline.pause();
       else this.#timeline.play();
@@ -369,6 +419,7 @@ export class LearnPage extends HTMLElement {
   /** @param {Event} event */
   #onChange(event) {
     const control = /** @type {HTMLInputElement} */ (event.target);
+    if (control.name === "unfinished_failures") this.#weighSettings();
     if (control.name === "drawn") this.#drawOwnPlay(control.value);
     if (control.name === "measure") {
       this.#measure = control.value === "gap" ? "gap" : "log_likelihood";
@@ -405,7 +456,8 @@ export class LearnPage extends HTMLElement {
   /** @param {boolean} isAsking */
   #setAsking(isAsking) {
     this.#isAsking = isAsking;
-    this.#part("learn").disabled = isAsking;
+    // Not `disabled`, which would let go of the focus.
+    this.#part("learn").setAttribute("aria-disabled", String(isAsking));
     this.#schedule();
   }
 

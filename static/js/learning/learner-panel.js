@@ -57,6 +57,12 @@ export class LearnerPanel {
     this.progress({ stage: "idle", share: 0, line: "", outcome: "" });
   }
 
+  /** What it misses has changed with a setting: take part, or not. */
+  weigh() {
+    this.checkbox.checked = this.learner.missing === null;
+    if (this.element.dataset.stage === "idle") this.clear();
+  }
+
   /** @param {{ stage: string, share: number, line: string, outcome: string }} state */
   progress({ stage, share, line, outcome }) {
     this.element.dataset.stage = stage;

@@ -85,15 +85,50 @@ export function isOutdated(run, demonstrations, rankings) {
 }
 
 /**
+ * True when a learner could start if only a failure had reached the goal: there are failures, all ended elsewhere.
+ * @param {Demonstration[]} demonstrations
+ * @param {Pick<LearnerInfo, "uses_failures">} learner
+ */
+export function lacksFinished(demonstrations, { uses_failures }) {
+  const failures = keptOf(demonstrations, "failure");
+  const isStuck = failures.length > 0 && failures.every((one) => one.ending !== "goal");
+  return uses_failures && isStuck && keptOf(demonstrations, "success").length > 0;
+}
+
+/**
+ * What a learner misses once the setting "unfinished failures" is taken into account; null when it can start. (The page
+ * was made with the default, to leave them out.)
+ * @param {Pick<LearnerInfo, "title" | "uses_failures" | "uses_ranking" | "missing">} learner
+ * @param {Demonstration[]} demonstrations
+ * @param {Rankings} rankings
+ * @param {string} unfinished "leave_out" or "include"
+ * @returns {string | null}
+ */
+export function missingWith(learner, demonstrations, rankings, unfinished) {
+  if (!lacksFinished(demonstrations, learner)) return learner.missing;
+  if (unfinished !== "include")
+    return `${learner.title} needs a failure that reaches the goal with a total below 0. Yours ended elsewhere: play one, or include them.`;
+  const isOrdered = /** @type {const} */ (["success", "failure"]).every((outcome) => {
+    const kept = keptOf(demonstrations, outcome);
+    return kept.length < 2 || fits(rankings[outcome], kept);
+  });
+  return learner.uses_ranking && !isOrdered ? `${learner.title} needs your attempts in order.` : null;
+}
+
+/**
  * Where a person goes to give a learner what it misses: to the order if there are attempts of every kind it needs.
  * @param {World} world
  * @param {Demonstration[]} demonstrations
  * @param {Pick<LearnerInfo, "uses_failures">} learner
+ * @param {string} [unfinished] the setting: "leave_out" or "include"
  * @returns {{ href: string, text: string }}
  */
-export function wayThere(world, demonstrations, { uses_failures }) {
+export function wayThere(world, demonstrations, learner, unfinished = "leave_out") {
+  if (unfinished !== "include" && lacksFinished(demonstrations, learner))
+    return { href: `/worlds/${world.id}`, text: "Play →" };
   const hasAll =
-    keptOf(demonstrations, "success").length > 0 && (!uses_failures || keptOf(demonstrations, "failure").length > 0);
+    keptOf(demonstrations, "success").length > 0 &&
+    (!learner.uses_failures || keptOf(demonstrations, "failure").length > 0);
   return hasAll
     ? { href: `/worlds/${world.id}/rank`, text: "Rank your attempts →" }
     : { href: `/worlds/${world.id}`, text: "Play →" };

@@ -55,6 +55,15 @@ export class SettingsForm {
     return true;
   }
 
+  /** @returns {string} what the setting says now about failures that never reached the goal */
+  get unfinishedFailures() {
+    return this.#control("unfinished_failures").value;
+  }
+
+  set unfinishedFailures(value) {
+    this.#control("unfinished_failures").value = value;
+  }
+
   focusFirstProblem() {
     const wrong = this.#form.querySelector('[aria-invalid="true"]');
     if (wrong instanceof HTMLElement) wrong.focus();
