@@ -15,13 +15,13 @@ const MOVES = {
 };
 
 /** @type {Record<string, string>} by the letter printed on the key */
-const COMMANDS = { z: "undo", backspace: "undo", r: "restart", g: "giveUp" };
+const COMMANDS = { z: "undo", backspace: "undo", r: "restart", g: "giveUp", escape: "endReplay" };
 const SWIPE = 24;
 
 /**
  * @typedef {object} Player
  * @property {(action: number, when: number) => void} move    `when`: the event's time in ms
- * @property {(command: string) => void} command              "undo", "restart", "giveUp" or "again"
+ * @property {(command: string) => void} command              "undo", "restart", "giveUp", "endReplay" or "again"
  */
 
 /** One press, one step: repeats are ignored, and keys held while the window loses the focus count as let go. @param {Player} player @param {AbortSignal} signal */

@@ -61,6 +61,13 @@ export function replayActions(world, id, actions, stepMs) {
   return actions.reduce((attempt, action, i) => step(world, attempt, action, stepMs[i] ?? 0), beginAttempt(world, id));
 }
 
+/** The direction the last step really took, which a slip may have turned. @param {World} world @param {Attempt} attempt @returns {{taken: number, isSlip: boolean}} */
+export function lastStep(world, { id, actions }) {
+  const intended = actions.at(-1) ?? 0;
+  const taken = slipDirection(id, actions.length - 1, intended, world.slip);
+  return { taken, isSlip: taken !== intended };
+}
+
 /** @param {Attempt} attempt */
 export function stateOf(attempt) {
   return attempt.states.at(-1) ?? 0;

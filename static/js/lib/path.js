@@ -1,13 +1,14 @@
 /** Keeps the path at the head of the page (*Play → Rank → Learn → Compare*) in step with what happens on it. */
 
-/** @param {{worldId: string, nSuccesses: number, nFailures: number, nWanted: number}} counts */
-export function showCounts({ worldId, nSuccesses, nFailures, nWanted }) {
+/** The other pages open once the server has the world. @param {{worldId: string, isSaved: boolean, nSuccesses: number, nFailures: number, nWanted: number}} counts */
+export function showCounts({ worldId, isSaved, nSuccesses, nFailures, nWanted }) {
   const isFull = nSuccesses >= nWanted && nFailures >= nWanted;
   setStep("play", {
     state: `${nSuccesses}/${nWanted} ✓ ${nFailures}/${nWanted} ✗`,
     isDone: isFull,
-    href: `/worlds/${worldId}`,
   });
+  if (!isSaved) return;
+  setStep("play", { href: `/worlds/${worldId}` });
   setStep("rank", { href: `/worlds/${worldId}/rank` });
   setStep("learn", { href: `/worlds/${worldId}/learn` });
 }

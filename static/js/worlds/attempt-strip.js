@@ -61,8 +61,13 @@ export class AttemptStrip {
       button.title = `${ACT_WORDS[act]} attempt ${n}`;
       button.onclick = () => this.#acts[act](entry, n);
     }
-    find(card, '[data-act="discard"]').hidden = entry.discarded || entry.sync === "waiting";
-    find(card, '[data-act="restore"]').hidden = !entry.discarded;
+    const [discard, restore] = [find(card, '[data-act="discard"]'), find(card, '[data-act="restore"]')];
+    const focused = document.activeElement;
+    discard.hidden = entry.discarded || entry.sync === "waiting";
+    restore.hidden = !entry.discarded;
+    // One takes the other's place, and its focus.
+    if (focused === discard && discard.hidden) restore.focus();
+    if (focused === restore && restore.hidden) discard.focus();
     const note = find(card, ".attempt-note");
     note.textContent = entry.note ?? (entry.discarded ? "Discarded: it does not count." : "");
     note.hidden = note.textContent === "";

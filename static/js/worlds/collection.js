@@ -6,7 +6,7 @@ import { ApiError, api } from "#js/lib/api.js";
 import { byId } from "#js/lib/dom.js";
 import { plural } from "#js/lib/format.js";
 import { Outbox, openStore } from "#js/lib/outbox.js";
-import { disableLink, enableLink, showCounts } from "#js/lib/path.js";
+import { disableLink, enableLink, setStep, showCounts } from "#js/lib/path.js";
 import { AttemptStrip } from "#js/worlds/attempt-strip.js";
 import { canRank, missingSentence } from "#js/worlds/sentences.js";
 
@@ -60,6 +60,7 @@ export class Collection {
     const { id, states, actions, stepMs, ending } = attempt;
     const shared = { id, states, actions, outcome: outcomeOf(attempt), total: totalOf(attempt) };
     this.#entries.push({ ...shared, discarded: false, sync: "waiting", note: null });
+    this.#outdateOrder();
     this.#show();
     const body = { id, actions, step_ms: stepMs, ending: ending ?? "gave_up" };
     const parcel = { id, worldId: this.#world.id, world: this.#spec(), body };
@@ -121,6 +122,7 @@ export class Collection {
     if (entry.sync === "refused") return this.#forget(entry);
     entry.discarded = isDiscarded;
     entry.note = null;
+    this.#outdateOrder();
     this.#show();
     announce(isDiscarded ? "Discarded. It can be restored." : "Restored.");
     try {
@@ -141,6 +143,11 @@ export class Collection {
     await (await this.#outbox).forget(entry.id);
   }
 
+  /** A confirmed order no longer holds once the attempts are others. */
+  #outdateOrder() {
+    setStep("rank", { state: "", isDone: false });
+  }
+
   #show() {
     const counts = { nSuccesses: this.count("success"), nFailures: this.count("failure"), nWanted: this.#nWanted };
     this.#strip.show(this.#entries);
@@ -148,7 +155,7 @@ export class Collection {
     this.#showTally("success", counts.nSuccesses);
     this.#showTally("failure", counts.nFailures);
     this.#showSync();
-    if (this.#isSaved || this.#entries.length > 0) showCounts({ worldId: this.#world.id, ...counts });
+    showCounts({ worldId: this.#world.id, isSaved: this.#isSaved, ...counts });
     this.#showNext(counts);
   }
 
@@ -180,10 +187,12 @@ export class Collection {
   #showNext(counts) {
     const next = byId("next");
     const isPossible = canRank(counts) && this.#isSaved;
-    byId("missing").textContent =
-      this.#world.success_possible === false && counts.nSuccesses === 0
-        ? "In this world every way costs more than the goal gives, so no success is possible. Try a new world."
-        : missingSentence(counts);
+    const isHopeless = this.#world.success_possible === false && counts.nSuccesses === 0;
+    byId("missing").textContent = isHopeless
+      ? "In this world every way costs more than the goal gives, so no success is possible. Try a new world."
+      : missingSentence(counts);
+    byId("elsewhere").hidden = !isHopeless;
+    next.hidden = isHopeless;
     next.dataset.ready = String(counts.nSuccesses >= this.#nWanted && counts.nFailures >= this.#nWanted);
     if (isPossible) enableLink(next, `/worlds/${this.#world.id}/rank`);
     else disableLink(next);

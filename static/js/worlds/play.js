@@ -4,12 +4,12 @@ import "#js/elements/irl-board.js";
 import { describePosition } from "#js/board/describe.js";
 import { facingOf } from "#js/board/facing.js";
 import { listenToKeys, listenToPointer } from "#js/board/input.js";
-import { beginAttempt, giveUp, outcomeOf, stateOf, step, totalOf, undo } from "#js/board/moves.js";
+import { beginAttempt, giveUp, lastStep, outcomeOf, stateOf, step, totalOf, undo } from "#js/board/moves.js";
 import { Replay } from "#js/board/replay.js";
-import { nextState } from "#js/board/state.js";
+import { DIRECTIONS, nextState } from "#js/board/state.js";
 import { announce } from "#js/lib/announce.js";
 import { byId } from "#js/lib/dom.js";
-import { number, signed } from "#js/lib/format.js";
+import { number, plural, signed } from "#js/lib/format.js";
 import { pageData } from "#js/lib/page-data.js";
 import { keepAttempt, keptAttempt } from "#js/worlds/checkpoint.js";
 import { Collection } from "#js/worlds/collection.js";
@@ -56,9 +56,11 @@ class PlayPage {
     this.#attempt = step(this.#world, this.#attempt, action, ms);
     const reached = stateOf(this.#attempt);
     this.#show();
-    if (reached === before) this.#board.bump(action);
-    this.#floatReward(reached);
-    if (this.#attempt.ending === null) this.#speak();
+    const { taken, isSlip } = lastStep(this.#world, this.#attempt);
+    if (reached === before) this.#board.bump(taken);
+    this.#floatReward(reached, isSlip);
+    if (this.#attempt.ending === null)
+      this.#speak(`${isSlip ? `Slipped ${DIRECTIONS[taken]}. ` : ""}${reached === before ? "Bumped. " : ""}`);
     else this.#finish();
     keepAttempt(this.#world.id, this.#attempt);
   }
@@ -76,6 +78,7 @@ class PlayPage {
   command(command) {
     const shows = this.#slot.dataset.shows;
     if (shows === "replay") this.#endReplay();
+    if (command === "endReplay") return;
     if (command === "undo") this.#undo();
     else if (command === "giveUp") this.#giveUp();
     else if (command === "restart" && (this.#attempt.actions.length > 0 || shows === "result")) this.#begin();
@@ -97,7 +100,7 @@ class PlayPage {
     this.#attempt = undo(this.#attempt);
     keepAttempt(this.#world.id, this.#attempt);
     this.#show();
-    this.#speak("One step back. ");
+    this.#speak("One step back. ", false);
   }
 
   #giveUp() {
@@ -146,7 +149,11 @@ class PlayPage {
     this.#slot.dataset.shows = "replay";
     byId("replay-title").textContent = `Attempt ${n}: ${entry.outcome}, ${signed(entry.total)}`;
     this.#board.dataset.mode = "replay";
-    this.#replay.play(entry);
+    const name = `Replay of attempt ${n}`;
+    announce(
+      `${name}: ${entry.outcome}, ${signed(entry.total)} in ${plural(entry.actions.length, "step")}. Escape goes back to play.`,
+    );
+    this.#replay.play(entry, () => announce(`${name} is over. Escape goes back to play.`));
   }
 
   #endReplay() {
@@ -176,15 +183,16 @@ class PlayPage {
     }
   }
 
-  /** @param {number} state */
-  #floatReward(state) {
+  /** @param {number} state @param {boolean} isSlip */
+  #floatReward(state, isSlip) {
     const reward = this.#attempt.rewards.at(-1) ?? 0;
-    this.#board.float(state, signed(reward), reward > 0 ? "gain" : "loss");
+    this.#board.float(state, `${isSlip ? "slipped " : ""}${signed(reward)}`, reward > 0 ? "gain" : "loss");
   }
 
-  #speak(before = "") {
+  /** @param {string} before @param {boolean} [hasPaid] */
+  #speak(before, hasPaid = true) {
     const cost = this.#attempt.rewards.at(-1);
-    const paid = cost === undefined || before ? "" : `${signed(cost)}. `;
+    const paid = cost === undefined || !hasPaid ? "" : `${signed(cost)}. `;
     const total = ` Total ${number(totalOf(this.#attempt))}.`;
     announce(before + paid + describePosition(this.#world, stateOf(this.#attempt)) + total);
   }
@@ -196,9 +204,11 @@ class PlayPage {
       if (!button) return;
       const { move, command, speed } = button.dataset;
       if (move !== undefined) this.move(Number(move), event.timeStamp);
-      else if (command === "endReplay") this.#endReplay();
       else if (command !== undefined) this.command(command);
       else if (speed !== undefined) this.#setSpeed(Number(speed));
+      // A button that has done its work for now would take the focus with it.
+      if (button.disabled || !button.checkVisibility({ visibilityProperty: true }))
+        this.#board.focus({ preventScroll: true });
     };
     byId("play").addEventListener("click", onClick, { signal });
     byId("numbers").addEventListener("click", () => this.#toggleNumbers(), { signal });
