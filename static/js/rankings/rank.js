@@ -192,6 +192,8 @@ class RankPage {
     else if (button.id === "redo") this.#travel(redo(this.#history), "Done again.");
     else if (button.id === "confirm") void this.confirm();
     else if (button.id === "reload") location.reload();
+    // A button at the end of its list is switched off under the finger: its card takes the focus.
+    if (card && /** @type {HTMLButtonElement} */ (button).disabled) card.focus();
   }
 
   /** @param {KeyboardEvent} event */
