@@ -47,9 +47,11 @@ share.addEventListener("click", async () => {
   const url = share.dataset.url ?? location.href;
   const isCopied = await copy(new URL(url, location.href).href);
   word.textContent = isCopied ? "Copied" : "Copy failed";
+  share.dataset.told = "true";
   announce(isCopied ? "The link is copied." : "The link could not be copied; it stands in the address bar.");
   setTimeout(() => {
     word.textContent = "Share";
+    delete share.dataset.told;
   }, 2000);
 });
 
