@@ -3,7 +3,12 @@ import test from "node:test";
 import { ApiError } from "#js/lib/api.js";
 import { memoryStore, Outbox } from "#js/lib/outbox.js";
 
-const parcel = (id) => ({ id, worldId: "w", world: { seed: 5 }, body: { id, actions: [1], step_ms: [5], ending: "gave_up" } });
+const parcel = (id) => ({
+  id,
+  worldId: "w",
+  world: { seed: 5 },
+  body: { id, actions: [1], step_ms: [5], ending: "gave_up" },
+});
 const offline = () => new ApiError({ status: 0, code: "offline", message: "away" });
 const refusal = (status) => new ApiError({ status, code: "no", message: "cannot have happened" });
 
