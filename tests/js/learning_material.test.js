@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { describeMaterial, isOutdated, untouched, wayThere, weighted } from "#js/learning/material.js";
+import { describeMaterial, isOutdated, missingWith, untouched, wayThere, weighted } from "#js/learning/material.js";
 import { readSetting } from "#js/learning/settings.js";
 import { makeWorld } from "./factories.js";
 
@@ -76,4 +76,17 @@ test("a setting is read, or refused with what would be right", () => {
     readSetting({ ...alpha, name: "iterations", maximum: 1000 }, "1.5").problem,
     "A whole number is needed here.",
   );
+});
+
+test("unfinished failures are asked for, or included, never a dead end", () => {
+  const success = { id: "a", outcome: "success", ending: "goal", states: [0], discarded: false, created_at: "" };
+  const failure = { id: "b", outcome: "failure", ending: "gave_up", states: [0], discarded: false, created_at: "" };
+  const learner = { title: "IRLFR", uses_failures: true, uses_ranking: true, missing: "the server's sentence" };
+  const rankings = { success: null, failure: null };
+  assert.match(missingWith(learner, [success, failure], rankings, "leave_out"), /play one, or include them/);
+  assert.equal(missingWith(learner, [success, failure], rankings, "include"), null);
+  assert.match(missingWith(learner, [success, failure, { ...failure, id: "c" }], rankings, "include"), /in order/);
+  assert.equal(missingWith(learner, [success, { ...failure, ending: "goal" }], rankings, "include"), learner.missing);
+  assert.equal(wayThere({ id: "w" }, [success, failure], learner).href, "/worlds/w");
+  assert.equal(wayThere({ id: "w" }, [success, failure], learner, "include").href, "/worlds/w/rank");
 });

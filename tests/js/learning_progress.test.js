@@ -58,3 +58,10 @@ test("a failed run says why, a cancelled one how far it came", () => {
   assert.match(cancelled.sentence, /^Cancelled after 1 of 2 learners\./);
   assert.equal(cancelled.stageOf("irlr"), "ended");
 });
+
+test("a learner that ended far from the play is named", () => {
+  const learners = { meirl: { outcome: "converged", gap: 0.0001 }, irlf: { outcome: "iteration_limit", gap: 84 } };
+  const titles = { meirl: "MEIRL", irlf: "IRLF" };
+  const progress = new RunProgress({ status: "done", reason: null, learners }, titles);
+  assert.equal(progress.sentence, "The run is done. IRLF ended far from your play.");
+});

@@ -7,6 +7,8 @@ import { plural } from "#js/lib/format.js";
 
 /** @typedef {"waiting" | "learning" | "learned" | "ended"} Stage */
 
+/** Visits from which on the core, too, calls a gap wide. */
+const WIDE_GAP = 0.5;
 const ORDINALS = ["first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth"];
 
 export class RunProgress {
@@ -133,7 +135,11 @@ export class RunProgress {
 
   #doneSentence() {
     const diverged = this.#learners.filter((learner) => this.#results.get(learner)?.outcome === "diverged");
-    if (diverged.length === 0) return `${this.#everybody} learned from your play.${this.#leftOut}`;
+    const astray = this.#learners.filter((learner) => (this.#results.get(learner)?.gap ?? 0) >= WIDE_GAP);
+    if (diverged.length === 0 && astray.length === 0)
+      return `${this.#everybody} learned from your play.${this.#leftOut}`;
+    if (diverged.length === 0)
+      return `The run is done. ${listed(astray.map((learner) => this.#titleOf(learner)))} ended far from your play.${this.#leftOut}`;
     return `The run is done. ${listed(diverged.map((learner) => this.#titleOf(learner)))} ran away instead of settling.`;
   }
 

@@ -40,6 +40,8 @@ class RankPage {
   #root = byId("rank");
   #center = /** @type {import("#js/elements/irl-board.js").IrlBoard} */ (byId("rank-board"));
   #replay = new Replay(this.#center);
+  /** What the card that plays by itself showed before. @type {{board: import("#js/elements/irl-board.js").IrlBoard, view: import("#js/board/state.js").View} | null} */
+  #still = null;
   /** @type {Map<string, any>} */
   #byId = new Map(this.#data.demonstrations.map((one) => [one.id, one]));
   #history = begin(this.#startOrders());
@@ -232,11 +234,18 @@ class RankPage {
       : /** @type {import("#js/elements/irl-board.js").IrlBoard} */ (card.querySelector("irl-board"));
     if (this.#replay.board !== board) {
       this.#replay.stop();
+      this.#rest();
+      this.#still = isThere ? null : { board, view: board.view };
       this.#replay = new Replay(board);
       this.#replay.speed = 2;
     }
     byId("rank-caption").textContent = card.dataset.words ?? "";
-    this.#replay.play(one);
+    this.#replay.play(one, () => this.#rest());
+  }
+
+  /** A card that played by itself shows its whole path again. */
+  #rest() {
+    if (this.#still) this.#still.board.view = this.#still.view;
   }
 
   /** @param {unknown} error */

@@ -153,6 +153,8 @@ class PlayPage {
     announce(
       `${name}: ${entry.outcome}, ${signed(entry.total)} in ${plural(entry.actions.length, "step")}. Escape goes back to play.`,
     );
+    // On a phone the list lies below the board.
+    this.#board.scrollIntoView({ block: "nearest" });
     this.#replay.play(entry, () => announce(`${name} is over. Escape goes back to play.`));
   }
 
@@ -207,8 +209,9 @@ class PlayPage {
       else if (command !== undefined) this.command(command);
       else if (speed !== undefined) this.#setSpeed(Number(speed));
       // A button that has done its work for now would take the focus with it.
-      if (button.disabled || !button.checkVisibility({ visibilityProperty: true }))
-        this.#board.focus({ preventScroll: true });
+      const isGone = button.disabled || !button.checkVisibility({ visibilityProperty: true });
+      const isFocusLost = document.activeElement === button || document.activeElement === document.body;
+      if (isGone && isFocusLost) this.#board.focus({ preventScroll: true });
     };
     byId("play").addEventListener("click", onClick, { signal });
     byId("numbers").addEventListener("click", () => this.#toggleNumbers(), { signal });
