@@ -68,9 +68,13 @@ def can_reach_total(
     """
     at_goal = mask(len(reward), goals)
     best = np.where(at_goal, 0.0, -np.inf)
-    ahead = np.ascontiguousarray(next_states.T)
+    first, *others = np.ascontiguousarray(next_states.T)
     for _ in range(horizon):
-        improved = np.where(at_goal, 0.0, (reward + best)[ahead].max(axis=0))
+        value = reward + best
+        improved = value.take(first)
+        for ahead in others:  # one direction after the other is several times as fast as all of them in one gather
+            np.maximum(improved, value.take(ahead), out=improved)
+        improved[at_goal] = 0.0
         if improved[start] >= total:
             return True
         if np.array_equal(improved, best):

@@ -80,7 +80,7 @@ def draw_playable_world(
         n_draws += 1
     raise InvalidWorld(
         f"In none of {n_draws} worlds of {rows}×{cols} squares drawn with red_probability {red_probability:g} can the"
-        " goal be reached with a total of 0 or more; ask for fewer red squares.",
+        " goal be reached with a total of 0 or more; ask for fewer red squares or walls.",
         field="red_probability",
     )
 
