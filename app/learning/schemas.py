@@ -8,6 +8,9 @@ from pydantic import BaseModel, ConfigDict, Field
 LARGEST_SEED = 2**53 - 1
 """The largest whole number that JavaScript holds exactly."""
 
+Word = Annotated[str, Field(pattern=r"^[A-Za-z_]{1,40}$")]
+"""The name of a setting, or its value where that is a word: irl_core's refusals repeat both."""
+
 
 class RunIn(BaseModel):
     """What to learn with. Everything may be left out."""
@@ -19,7 +22,7 @@ class RunIn(BaseModel):
         Field(min_length=1, max_length=20, description="Names of learners, in the order in which they shall learn."),
     ] = ["meirl", "irlr", "irlf", "irlfr"]
     settings: Annotated[
-        dict[Annotated[str, Field(max_length=40)], int | float | str],
+        dict[Word, int | float | Word],
         Field(
             max_length=40,
             description="Settings that differ from the defaults, by name: see `settings` on the learn page.",

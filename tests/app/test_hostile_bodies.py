@@ -196,3 +196,22 @@ def test_an_error_nobody_foresaw_keeps_the_shape_and_the_headers(client, monkeyp
     assert MARK not in response.text
     assert "content-security-policy" in response.headers
     assert "set-cookie" not in response.headers
+
+
+def test_odd_values_in_every_field_and_setting_of_a_run(client):
+    world = make_world(client)
+    make_demonstration(client, world)
+    before = n_rows(client)
+    url = f"/api/v1/worlds/{world['id']}/runs"
+    settings = ("iterations", "learning_rate", "tolerance", "lambda_start", "initial_weights", "unfinished_failures")
+    good = {"learners": ["meirl"], "seed": 1}
+    bodies = [good | {name: value} for name in ("learners", "settings") for value in ODD_VALUES if value != {}]
+    bodies += [good | {"seed": value} for value in ODD_VALUES if value not in (None, 0) or isinstance(value, bool)]
+    wrong = [value for value in ODD_VALUES if value not in (0, 1e308) or isinstance(value, bool)]
+    bodies += [good | {"settings": {name: value}} for name in settings for value in wrong if value != 1.5]
+    bodies += [good | {"settings": {name: 10**300}} for name in settings]
+    for body in bodies:
+        assert_refused(post_raw(client, url, json.dumps(body).encode()))
+    for name in settings:
+        assert_refused(post_raw(client, url, b'{"learners": ["meirl"], "settings": {"%s": 1e999}}' % name.encode()))
+    assert n_rows(client) == before
