@@ -184,7 +184,7 @@ def _log_dynamics(world: World, demonstration: Demonstration) -> float:
 
 def _how_it_ended(problem: LearningProblem, state: LearningState, outcome: Outcome, gap: float) -> str:
     n, limit = state.iteration, problem.settings.iterations
-    visits = f"the gap to the attempts is {gap:.2g} visits of a square"
+    visits = f"the gap to the attempts is {gap:.2g} {'visit' if f'{gap:.2g}' == '1' else 'visits'} of a square"
     if outcome is Outcome.CONVERGED:
         return f"Converged after {n} iterations: {visits}."
     if outcome is Outcome.STOPPED:
@@ -207,7 +207,7 @@ def _what_to_know(problem: LearningProblem, *, rho: float, executed_gap: float) 
         )
     if executed_gap >= WIDE_GAP:
         notes.append(
-            f"Executed at every step alike, the policy visits squares up to {executed_gap:.2g} times more or less often"
-            " than what was learned."
+            "Executed at every step alike, the policy differs from what was learned by up to"
+            f" {executed_gap:.2g} visits of a square."
         )
     return notes

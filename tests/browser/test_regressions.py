@@ -79,6 +79,35 @@ def test_focus_stays_on_the_page_when_its_button_goes(page: Page, base_url: str)
     expect(page.locator('.path-step[data-step="learn"]')).to_have_attribute("data-done", "true")
 
 
+def test_a_double_press_of_learn_cancels_nothing(page: Page, base_url: str) -> None:
+    world_id, _ = walk.prepared(page, base_url, seed=34)
+    page.goto(f"/worlds/{world_id}/learn")
+    page.locator('[data-action="learn"]').click()
+    page.locator('[data-action="cancel"]').click()
+    expect(page.locator("learn-page")).to_have_attribute("data-status", "done", timeout=walk.LEARNING_MS)
+
+
+def test_a_cancelled_run_says_so_and_can_be_asked_for_again(page: Page, base_url: str) -> None:
+    world_id, _ = walk.prepared(page, base_url, seed=35)
+    page.goto(f"/worlds/{world_id}/learn")
+    page.locator('[data-action="learn"]').click()
+    page.wait_for_timeout(800)
+    page.locator('[data-action="cancel"]').click()
+    expect(page.locator("learn-page")).to_have_attribute("data-status", "cancelled")
+    expect(page.locator('[data-action="learn"]')).to_be_visible()
+
+
+def test_sort_by_score_puts_the_best_success_and_the_worst_failure_first(page: Page, base_url: str) -> None:
+    world_id, _ = walk.prepared(page, base_url, seed=36)
+    page.goto(f"/worlds/{world_id}/rank")
+    totals = {one["id"]: one["total"] for one in walk.page_data(page)["demonstrations"]}
+    for outcome, is_falling in (("success", True), ("failure", False)):
+        before = walk.order_of(page, outcome)
+        page.locator(f'#list-{outcome} [data-act="down"]').first.click()
+        page.locator(f'[data-sort="{outcome}"]').click()
+        assert walk.order_of(page, outcome) == sorted(before, key=totals.__getitem__, reverse=is_falling)
+
+
 def test_escape_leaves_a_replay(page: Page) -> None:
     page.goto("/?seed=34")
     page.keyboard.press("ArrowRight")

@@ -27,6 +27,8 @@ import { ApiError, api } from "#js/lib/api.js";
 import { pageData } from "#js/lib/page-data.js";
 import { setStep } from "#js/lib/path.js";
 
+const DOUBLE_PRESS_MS = 600;
+
 export class LearnPage extends HTMLElement {
   #life = new AbortController();
   #stream = new AbortController();
@@ -47,6 +49,7 @@ export class LearnPage extends HTMLElement {
   /** @type {"gap" | "log_likelihood"} */
   #measure = "gap";
   #isAsking = false;
+  #askedAt = Number.NEGATIVE_INFINITY;
   #isConnected = true;
   #painting = 0;
   #paintedAt = 0;
@@ -94,6 +97,7 @@ export class LearnPage extends HTMLElement {
       const run = /** @type {Run} */ (await api.post(`/worlds/${this.#data.world.id}/runs`, body));
       const outcomes = Object.fromEntries(learners.map((learner) => [learner, { outcome: null }]));
       history.replaceState(history.state, "", `/runs/${run.id}`);
+      this.#askedAt = performance.now();
       this.#watch({ ...run, learners: run.learners ?? outcomes });
       announce("Learning has been asked for.");
     } catch (error) {
@@ -105,7 +109,8 @@ export class LearnPage extends HTMLElement {
 
   async cancel() {
     const run = this.#data.run;
-    if (!run) return;
+    // The button stands where Learn was: the second press of a double press means nothing.
+    if (!run || performance.now() - this.#askedAt < DOUBLE_PRESS_MS) return;
     try {
       await api.post(`/runs/${run.id}/cancellation`, {});
     } catch (error) {
