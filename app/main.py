@@ -77,6 +77,7 @@ async def lifespan(app: FastAPI) -> AsyncIterator[None]:
     settings: Settings = app.state.settings
     to_thread.current_default_thread_limiter().total_tokens = N_THREADS
     app.state.database = Database(settings)
+    app.state.known_worlds = {}
     try:
         async with open_learning(app, settings, app.state.database):
             yield

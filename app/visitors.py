@@ -20,6 +20,7 @@ from app.kit import clock
 from app.models import Visitor as VisitorRow
 
 COOKIE = "irlfr_visitor"
+REMEMBER = insert(VisitorRow.metadata.tables["visitor"]).prefix_with("OR IGNORE")
 COOKIE_AGE_S = 365 * 24 * 3600
 
 
@@ -55,7 +56,7 @@ Visitor = Annotated[str, Depends(find_or_make_visitor)]
 def remember(session: Session, visitor_id: str) -> None:
     """See that the visitor has a row, for what is stored next to point to."""
     row = {"id": visitor_id, "created_at": clock.now()}
-    session.execute(insert(VisitorRow).prefix_with("OR IGNORE"), row)
+    session.connection().execute(REMEMBER, row)
 
 
 class VisitorCookie:

@@ -19,7 +19,7 @@ router = APIRouter(prefix="/api/v1", tags=["demonstrations"])
     summary="Record an attempt",
     responses={200: {"model": DemonstrationOut, "description": "It was recorded before; the same body again."}},
 )
-def record_demonstration(
+async def record_demonstration(
     world: WorldFromPath, body: DemonstrationIn, database: DatabaseFromApp, visitor_id: Visitor, response: Response
 ) -> DemonstrationOut:
     """Live the attempt again on the server and store it, once for each id.
@@ -27,7 +27,7 @@ def record_demonstration(
     The answer comes when the attempt is on the disk. Sending it again does no harm (200); another attempt under the
     same id is refused (409), as is one that cannot have happened (422, naming the step).
     """
-    demonstration, is_new = service.record(database, visitor_id, world, body)
+    demonstration, is_new = await service.record(database, visitor_id, world, body)
     if not is_new:
         response.status_code = 200
     return DemonstrationOut.of(demonstration)

@@ -8,9 +8,9 @@ from sqlalchemy.orm import Session
 from app.models import Demonstration
 
 
-def find(session: Session, demonstration_id: str) -> Demonstration | None:
-    """Find a demonstration by its id, whoever made it."""
-    return session.scalar(select(Demonstration).where(Demonstration.id == demonstration_id))
+def find(session: Session, demonstration_id: str) -> Demonstration:
+    """Find a demonstration that is known to be there by its id, whoever made it."""
+    return session.scalars(select(Demonstration).where(Demonstration.id == demonstration_id)).one()
 
 
 def find_theirs(session: Session, visitor_id: str | None, demonstration_id: str) -> Demonstration | None:

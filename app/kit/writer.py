@@ -57,14 +57,14 @@ class Writer:
 
     def run(self, work: Callable[[Session], T]) -> T:
         """Do `work(session)`, wait until it is on the disk, and return what it returned or raise what it raised."""
+        return self.submit(work).result()
+
+    def submit(self, work: Callable[[Session], T]) -> "Future[T]":
+        """Queue `work(session)`; the future is done when it is on the disk, and cannot be cancelled."""
         item = _Item(work)
+        item.future.set_running_or_notify_cancel()  # whoever stops waiting does not stop the work
         self._admit(item)
-        try:
-            result: T = item.future.result()
-        finally:
-            with self._admission:
-                self._n_admitted -= 1
-        return result
+        return item.future
 
     def close(self) -> None:
         """Finish what has been accepted, then stop."""
@@ -110,26 +110,35 @@ class Writer:
                         done.append((item, _in_savepoint(connection, item.work)))
                     except Exception as error:  # noqa: BLE001 - handed to the caller who asked for this work
                         _check_is_in_transaction(connection, error)
-                        item.future.set_exception(error)
+                        self._answer(item, error=error)
         except Exception as error:  # noqa: BLE001 - the commit itself failed: nobody may believe they were stored
             self._is_stuck = True
             self._refuse(group, error)
             return
         self._is_stuck = False
         for item, result in done:
-            item.future.set_result(result)
+            self._answer(item, result=result)
 
     def _refuse(self, group: list[_Item], error: Exception) -> None:
         """Tell the group why, and those who came meanwhile to come again."""
         for item in group:
             if not item.future.done():
-                item.future.set_exception(error)
+                self._answer(item, error=error)
         for _ in range(self._queue.qsize()):
             waiting = self._queue.get()
             if waiting is None:
                 self._queue.put(None)  # the sign to stop is the last in the queue
             else:
-                waiting.future.set_exception(WriterIsBusy())
+                self._answer(waiting, error=WriterIsBusy())
+
+    def _answer(self, item: _Item, *, result: object = None, error: Exception | None = None) -> None:
+        """Give the place in the queue back, then wake the caller, who may come again at once."""
+        with self._admission:
+            self._n_admitted -= 1
+        if error is None:
+            item.future.set_result(result)
+        else:
+            item.future.set_exception(error)
 
 
 def _check_is_in_transaction(connection: Connection, error: Exception) -> None:

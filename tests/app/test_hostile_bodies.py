@@ -177,7 +177,7 @@ def test_a_broken_database_is_503_with_retry_after_and_no_acknowledgement(client
             raise error
 
         with monkeypatch.context() as patch:
-            patch.setattr(client.app.state.database, "write", fail)
+            patch.setattr(client.app.state.database._writer, "submit", fail)
             response = client.post(f"/api/v1/worlds/{world['id']}/demonstrations", json=attempt(world))
         assert response.status_code == 503
         assert response.headers["retry-after"]

@@ -70,6 +70,29 @@ def test_writing_connections_wait_for_the_disk(database):
     assert database.write(lambda session: session.scalar(text("PRAGMA journal_mode"))) == "wal"
 
 
+def test_who_stops_waiting_does_not_stop_the_work(database):
+    future = database._writer.submit(add("kept"))
+    assert not future.cancel()
+    assert future.result(10) == 1
+    assert count(database) == 1
+
+
+def test_a_writer_is_as_free_after_its_work_as_before(settings):
+    """Places in the queue are given back, by work that fails too."""
+    engine = make_engine(settings.database_url, "write")
+    writer = Writer(engine, queue_length=1)
+
+    def fail(_):
+        raise ValueError("on purpose")
+
+    for n in range(5):
+        assert writer.run(add(str(n))) == 1
+        with pytest.raises(ValueError, match="on purpose"):
+            writer.run(fail)
+    writer.close()
+    engine.dispose()
+
+
 def test_readers_cannot_write(database):
     with database.read() as session, pytest.raises(OperationalError, match="readonly"):
         add("nobody")(session)
