@@ -55,7 +55,7 @@ def id_of(spec: Mapping[str, Any]) -> str:
     return str(uuid.uuid5(NAMESPACE, json.dumps(spec, sort_keys=True, separators=(",", ":"))))
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=64)
 def world_from_text(text: str) -> World:
     """Read a stored world. Cached, because every attempt is simulated in one."""
     return World.from_json(json.loads(text))

@@ -12,8 +12,8 @@ from app.errors import NotFound
 from app.worlds import queries
 from app.worlds.convert import StoredWorld
 
-MOST_KNOWN = 256
-"""How many worlds a process remembers: 100×100 ones take a megabyte each."""
+MOST_KNOWN = 64
+"""How many worlds a process remembers: a class plays one, and 100×100 ones take 1.5 MB each."""
 
 
 async def get_world(world_id: UUID, request: Request, database: DatabaseFromApp) -> StoredWorld:
