@@ -1,7 +1,11 @@
 """Everything that can be wrong with what irl_core is given.
 
     IrlError
-    ├── InvalidWorld               a size, reward, wall, goal or horizon that makes no world
+    ├── InvalidModel               numbers that make no Markov decision process
+    │   └── InvalidWorld           a size, reward, wall, goal or horizon that makes no world
+    ├── InvalidReward              a reward that is not S finite numbers
+    ├── InvalidFeatures            a feature map of the wrong shape, or one that cannot tell weights apart
+    ├── DivergentPartition         the sum over paths of any length is infinite for this reward
     ├── ImpossibleDemonstration    an attempt that cannot have happened in its world
     ├── InvalidRanking             unknown, doubled or misplaced demonstrations in an order
     ├── InvalidSettings            a learner's setting out of its range
@@ -21,7 +25,27 @@ class IrlError(Exception):
         self.field = field
 
 
-class InvalidWorld(IrlError):
+class InvalidModel(IrlError):
+    """These numbers do not make a Markov decision process."""
+
+
+class InvalidReward(IrlError):
+    """This is not a reward for this model."""
+
+
+class InvalidFeatures(IrlError):
+    """This is not a feature map for this model."""
+
+
+class DivergentPartition(IrlError):
+    """The sum over paths of any length is infinite; `spectral_radius` is ρ ≥ 1 where it was computed."""
+
+    def __init__(self, message: str, *, spectral_radius: float | None = None) -> None:
+        super().__init__(message, field="reward")
+        self.spectral_radius = spectral_radius
+
+
+class InvalidWorld(InvalidModel):
     """These numbers do not make a world."""
 
 

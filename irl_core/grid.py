@@ -41,9 +41,14 @@ def mask(n_states: int, states: Iterable[int]) -> BoolVector:
 
 def distances(next_states: IntMatrix, start: int) -> IntVector:
     """Fewest steps from the start to each state, −1 where there is no way, shape (S,)."""
+    return distances_from(next_states, np.array([start]))
+
+
+def distances_from(next_states: IntMatrix, starts: IntVector) -> IntVector:
+    """Fewest steps from the nearest start to each state, −1 where there is no way, shape (S,)."""
     steps = np.full(len(next_states), -1, dtype=np.int64)
-    steps[start] = 0
-    frontier = np.array([start])
+    steps[starts] = 0
+    frontier = starts
     n_steps = 0
     while len(frontier):
         n_steps += 1

@@ -11,6 +11,7 @@ from irl_core import grid
 from irl_core.arrays import IntMatrix, IntVector, Matrix, Vector, read_only
 from irl_core.checks import shown
 from irl_core.errors import InvalidRanking, InvalidWorld
+from irl_core.mdp.grid import GridMdp
 from irl_core.world_checks import is_list, real, rewards_of, squares_of, whole
 
 MIN_SIDE: Final = 2
@@ -87,6 +88,11 @@ class World:
         reached = grid.neighbours(self.rows, self.cols, goals=self.goals, walls=self.walls)
         read_only(reached)
         return reached
+
+    @cached_property
+    def mdp(self) -> GridMdp:
+        """The world without its rewards: what a learner may know."""
+        return GridMdp(self.rows, self.cols, self.goals, self.walls, self.slip, start=self.start, horizon=self.horizon)
 
     @cached_property
     def success_possible(self) -> bool:

@@ -1,0 +1,57 @@
+"""What inference gives, whatever its kind: the distribution over paths that a reward implies, and its gradient."""
+
+from dataclasses import dataclass
+from typing import Final, Literal, TypeAlias, get_args
+
+import numpy as np
+
+from irl_core.arrays import Matrix, Policy, Vector, read_only
+from irl_core.errors import InvalidReward
+
+InferenceKind: TypeAlias = Literal["path", "path_infinite", "causal", "ziebart"]
+INFERENCE_KINDS: Final[tuple[InferenceKind, ...]] = get_args(InferenceKind)
+
+
+@dataclass(frozen=True, eq=False)
+class Inferred:
+    """What a reward R implies.
+
+    `log_partition` is Σ_s ρ_0(s) log Z(s) over the starts (for `causal`: Σ ρ_0 V). `policy`, shape (S, A), is the
+    stationary one that is drawn and executed. `visitation`, shape (S,), is μ^π, the expected number of visits (for
+    `causal`: discounted). For every kind but `ziebart` it is the gradient of the log partition in R.
+    """
+
+    inference: InferenceKind
+    log_partition: float
+    policy: Policy
+    visitation: Vector
+
+    def __post_init__(self) -> None:
+        read_only(self.policy)
+        read_only(self.visitation)
+
+
+@dataclass(frozen=True, eq=False)
+class BatchInferred:
+    """What B rewards imply, each in its own grid: the fields of Inferred with a leading axis B."""
+
+    inference: InferenceKind
+    log_partition: Vector
+    policy: np.ndarray[tuple[int, int, int], np.dtype[np.float64]]
+    visitation: Matrix
+
+
+def check_reward(reward: object, *, n_states: int) -> Vector:
+    """The reward as contiguous float64, shape (S,). Raises InvalidReward, which says what was found."""
+    try:
+        checked: Vector = np.ascontiguousarray(reward, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InvalidReward(f"reward must be {n_states} finite numbers, one a state.", field="reward") from None
+    if checked.shape != (n_states,):
+        raise InvalidReward(
+            f"reward must be {n_states} finite numbers, one a state; its shape is {checked.shape}.", field="reward"
+        )
+    wrong = np.flatnonzero(~np.isfinite(checked))
+    if len(wrong):
+        raise InvalidReward(f"reward must be finite; in state {wrong[0]} it is {checked[wrong[0]]:g}.", field="reward")
+    return checked
