@@ -5,9 +5,13 @@ What this module exports is the public interface; the docstrings are its referen
 
 from irl_core.comparison import Comparison, Entry, compare
 from irl_core.errors import (
+    DivergentPartition,
     ImpossibleDemonstration,
+    InvalidFeatures,
     InvalidFile,
+    InvalidModel,
     InvalidRanking,
+    InvalidReward,
     InvalidSettings,
     InvalidWorld,
     IrlError,
@@ -22,6 +26,7 @@ from irl_core.evaluation import (
     optimum,
     rollouts,
 )
+from irl_core.features import FeatureMap, features_of
 from irl_core.files import DemonstrationFile, WorldSection, read_demonstration_file, write_demonstration_file
 from irl_core.gridworld import (
     GENERATOR_VERSION,
@@ -31,6 +36,7 @@ from irl_core.gridworld import (
     slip_direction,
     success_is_possible,
 )
+from irl_core.inference import BatchInferred, Inferred, infer, infer_batch
 from irl_core.learners import (
     LEARNERS,
     Frame,
@@ -39,9 +45,11 @@ from irl_core.learners import (
     LearningResult,
     LearningState,
     Outcome,
+    Posterior,
     Settings,
     learn,
 )
+from irl_core.mdp import GridMdp, Mdp, SparseMdp
 from irl_core.planning import HardPlan, SoftPlan, hard_plan, soft_plan, spectral_radius, visitation
 from irl_core.types import Demonstration, Ranking, World
 from irl_core.weights import feature_counts, rank_weights, uniform_weights
@@ -49,15 +57,23 @@ from irl_core.weights import feature_counts, rank_weights, uniform_weights
 __all__ = [
     "GENERATOR_VERSION",
     "LEARNERS",
+    "BatchInferred",
     "Comparison",
     "Demonstration",
     "DemonstrationFile",
+    "DivergentPartition",
     "Entry",
+    "FeatureMap",
     "Frame",
+    "GridMdp",
     "HardPlan",
     "ImpossibleDemonstration",
+    "Inferred",
+    "InvalidFeatures",
     "InvalidFile",
+    "InvalidModel",
     "InvalidRanking",
+    "InvalidReward",
     "InvalidSettings",
     "InvalidWorld",
     "IrlError",
@@ -65,12 +81,15 @@ __all__ = [
     "LearningProblem",
     "LearningResult",
     "LearningState",
+    "Mdp",
     "MissingDemonstrations",
     "Outcome",
+    "Posterior",
     "Ranking",
     "Rollout",
     "Settings",
     "SoftPlan",
+    "SparseMdp",
     "World",
     "WorldSection",
     "compare",
@@ -78,9 +97,12 @@ __all__ = [
     "expected_return",
     "expected_visits",
     "feature_counts",
+    "features_of",
     "generate_world",
     "greedy_plan",
     "hard_plan",
+    "infer",
+    "infer_batch",
     "learn",
     "optimal_plan",
     "optimum",

@@ -15,6 +15,7 @@ import numpy as np
 
 from irl_core import grid
 from irl_core.arrays import BoolVector, IntVector, Matrix, Policy, Vector
+from irl_core.mdp import GridMdp, as_mdp
 from irl_core.planning import HardPlan, direction_law, hard_plan
 from irl_core.types import World
 
@@ -42,15 +43,24 @@ def expected_return(world: World, policy: Policy | HardPlan, *, horizon: int | N
     return float(value[world.start])
 
 
-def expected_visits(world: World, policy: Policy | HardPlan, *, horizon: int | None = None) -> Vector:
-    """How often each state is visited on average when the policy is executed, start and goal included, shape (S,)."""
+def expected_visits(
+    world: World | GridMdp,
+    policy: Policy | HardPlan,
+    *,
+    horizon: int | None = None,
+    starts: Vector | None = None,
+    discount: float = 1.0,
+) -> Vector:
+    """How often each state is visited on average when the policy is executed, start and goal included, shape (S,).
+
+    `starts`, shape (S,), is the model's own unless given; a visit at step t counts γ^t with a discount γ.
+    """
     ahead = world.next_states.reshape(-1)
     not_goal = ~grid.mask(world.n_states, world.goals)
-    here: Vector = np.zeros(world.n_states)
-    here[world.start] = 1.0
+    here: Vector = (as_mdp(world).starts if starts is None else starts).copy()
     visits: Vector = here.copy()
     for law in _laws_first_step_first(world, policy, _n_steps(world, policy, horizon)):
-        moved = law * (here * not_goal)[:, None]
+        moved = law * (here * not_goal * discount)[:, None]
         here = np.bincount(ahead, moved.reshape(-1), world.n_states).astype(np.float64, copy=False)
         visits += here
     return visits
@@ -101,12 +111,12 @@ def _rollout(world: World, path: IntVector, arrived: BoolVector) -> Rollout:
     return Rollout(tuple(states.tolist()), float(world.reward[states[1:]].sum()), reached_goal)
 
 
-def _n_steps(world: World, policy: Policy | HardPlan, horizon: int | None) -> int:
+def _n_steps(world: World | GridMdp, policy: Policy | HardPlan, horizon: int | None) -> int:
     n_steps = world.horizon if horizon is None else horizon
     return min(n_steps, policy.horizon) if isinstance(policy, HardPlan) else n_steps
 
 
-def _laws_first_step_first(world: World, policy: Policy | HardPlan, n_steps: int) -> Iterator[Matrix]:
+def _laws_first_step_first(world: World | GridMdp, policy: Policy | HardPlan, n_steps: int) -> Iterator[Matrix]:
     if isinstance(policy, HardPlan):
         return (_plan_law(world, policy, n) for n in range(n_steps, 0, -1))
     law = direction_law(world, policy)
@@ -120,7 +130,7 @@ def _laws_last_step_first(world: World, policy: Policy | HardPlan, n_steps: int)
     return (law for _ in range(n_steps))
 
 
-def _plan_law(world: World, plan: HardPlan, n: int) -> Matrix:
+def _plan_law(world: World | GridMdp, plan: HardPlan, n: int) -> Matrix:
     """The direction law of a plan with n steps to go, shape (S, 4)."""
     chosen: Matrix = np.zeros((world.n_states, grid.N_ACTIONS))
     chosen[np.arange(world.n_states), plan.actions[n - 1]] = 1.0

@@ -30,15 +30,16 @@ N is finite because the infinite sum rarely exists (`spectral_radius` tells): no
 Shapes: S states, directions and actions 4, N steps. Ties go to the action with the lowest number.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Final, TypeAlias
 
 import numpy as np
 
 from irl_core import grid
-from irl_core.arrays import Matrix, Policy, Reward, Vector, read_only
+from irl_core.arrays import BoolVector, Matrix, Policy, Reward, Vector, read_only
 from irl_core.errors import InvalidWorld
+from irl_core.mdp import GridMdp, Mdp, as_mdp
 from irl_core.types import World
 
 StepActions: TypeAlias = np.ndarray[tuple[int, int], np.dtype[np.int8]]
@@ -46,6 +47,9 @@ StepPolicies: TypeAlias = np.ndarray[tuple[int, int, int], np.dtype[np.float64]]
 
 _BLOCK: Final = 1 << 18
 """How many numbers the forward pass holds per array at once: 2 MB, some 1,300 steps of a 7×7 world."""
+
+_SMALL: Final = 256
+"""States up to which all eigenvalues are found at once."""
 
 _ARRIVAL_FIRST: Final = 1000.0
 """With slip, a plan that must arrive gives up all it could earn for 0.1 % more chance of arriving."""
@@ -134,29 +138,65 @@ def hard_plan(world: World, reward: Reward, *, horizon: int | None = None, must_
     return HardPlan(actions, values)
 
 
-def direction_law(world: World, policy: Policy) -> Matrix:
+def direction_law(world: World | GridMdp, policy: Policy) -> Matrix:
     """The chance of each direction when `policy` (or a one-hot plan) is executed under slip, shape (S, 4)."""
     return _slip_mix(world, policy)
 
 
-def spectral_radius(world: World, reward: Reward) -> float:
-    """ρ of the e^R-weighted moves between squares on the way: the sum over paths of any length is finite iff ρ < 1.
+def spectral_radius(model: World | Mdp, reward: Reward) -> float:
+    """ρ of the e^R-weighted moves between states on the way: the sum over paths of any length is finite iff ρ < 1.
 
-    Power iteration in logs, between the Collatz–Wielandt bounds, over what can be reached from the start before a goal.
+    Only what can be reached from the starts before a terminal state counts. Small grids by the eigenvalues of the
+    symmetric e^{R/2} W e^{R/2}, W the number of moves between two squares; others by power iteration in logs, between
+    the Collatz–Wielandt bounds. Where ρ exceeds e^700 it is given as that.
     """
-    reached = grid.distances(world.next_states, world.start) >= 0
-    inside = reached & ~grid.mask(world.n_states, world.goals)
-    ahead = np.ascontiguousarray(world.next_states.T)
+    mdp = as_mdp(model)
+    if isinstance(mdp, GridMdp) and mdp.n_states <= _SMALL:
+        return _largest_eigenvalue(mdp, reward)
+    inside, log_sums = _log_sums_ahead(mdp)
     log_v = np.where(inside, 0.0, -np.inf)
     low = high = 0.0
     for _ in range(2000):
-        grown = np.where(inside, reward + _log_sum_exp(log_v[ahead]), -np.inf)
+        grown = np.where(inside, reward + log_sums(log_v), -np.inf)
         growth = grown[inside] - log_v[inside]
         low, high = float(growth.min()), float(growth.max())
         if high - low < 1e-6:
             break
         log_v = grown - grown.max()
     return float(np.exp(min((low + high) / 2, 700.0)))
+
+
+def _largest_eigenvalue(mdp: GridMdp, reward: Reward) -> float:
+    inside = np.flatnonzero(_on_the_way(mdp))
+    top = float(reward[inside].max())
+    half = np.exp((reward[inside] - top) / 2)
+    moves: Matrix = np.zeros((mdp.n_states, mdp.n_states))
+    for ahead in mdp.next_states.T:
+        moves[np.arange(mdp.n_states), ahead] += 1.0
+    weighed = half[:, None] * moves[np.ix_(inside, inside)] * half
+    largest = float(np.linalg.eigvalsh(weighed)[-1])
+    return float(np.exp(min(np.log(max(largest, 1e-300)) + top, 700.0)))
+
+
+def _on_the_way(mdp: GridMdp) -> BoolVector:
+    reached: BoolVector = (grid.distances_from(mdp.next_states, mdp.start_states) >= 0) & ~mdp.terminal
+    return reached
+
+
+def _log_sums_ahead(mdp: Mdp) -> tuple[BoolVector, Callable[[Vector], Vector]]:
+    """The states on the way, and v ↦ log Σ_{s′} W(s, s′) e^{v(s′)}, shape (S,)."""
+    if isinstance(mdp, GridMdp):
+        ahead = np.ascontiguousarray(mdp.next_states.T)
+        return _on_the_way(mdp), lambda log_v: _log_sum_exp(log_v[ahead])
+    flow, inside = mdp.flow, mdp.reachable & ~mdp.terminal
+
+    def log_sums(log_v: Vector) -> Vector:
+        top = float(log_v.max())
+        with np.errstate(divide="ignore"):
+            summed: Vector = np.log(flow @ np.exp(log_v - top)) + top
+        return summed
+
+    return inside, log_sums
 
 
 def _check(world: World, reward: Reward, horizon: int | None) -> int:
@@ -203,7 +243,7 @@ def _uniform_where_nothing_is_ahead(law: Matrix) -> Matrix:
     return np.where(law.any(axis=1, keepdims=True), law, 1.0 / grid.N_ACTIONS)
 
 
-def _slip_mix(world: World, values: Matrix) -> Matrix:
+def _slip_mix(world: World | GridMdp, values: Matrix) -> Matrix:
     """Σ_d T(d | a) x_d (which is also Σ_a T(d | a) x_a: T is symmetric), shape (S, 4)."""
     if world.slip == 0.0:
         return values

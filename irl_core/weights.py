@@ -17,6 +17,7 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 
 from irl_core.arrays import Vector
+from irl_core.mdp import Mdp
 from irl_core.types import Demonstration, World, check_groups
 
 
@@ -39,12 +40,28 @@ def uniform_weights(ids: Iterable[str]) -> dict[str, float]:
     return dict.fromkeys(listed, 1.0 / len(listed)) if listed else {}
 
 
-def feature_counts(world: World, demonstrations: Iterable[Demonstration], weights: Mapping[str, float]) -> Vector:
-    """μ̃, the weighted sum of visits to each state, shape (S,).
+def feature_counts(
+    model: World | Mdp,
+    demonstrations: Iterable[Demonstration],
+    weights: Mapping[str, float],
+    *,
+    discount: float = 1.0,
+) -> Vector:
+    """μ̃, the weighted sum of visits to each state, shape (S,); with a discount γ a visit at step t counts γ^t.
 
     Summed in the order of ids, so that the order in which demonstrations are given changes no bit of the result.
     """
-    counts: Vector = np.zeros(world.n_states)
+    counts: Vector = np.zeros(model.n_states)
     for demonstration in sorted(demonstrations, key=lambda one: one.id):
-        counts += weights[demonstration.id] * np.bincount(demonstration.states, minlength=world.n_states)
+        worth = discount ** np.arange(len(demonstration.states))
+        counts += weights[demonstration.id] * np.bincount(demonstration.states, worth, model.n_states)
     return counts
+
+
+def start_counts(model: World | Mdp, demonstrations: Iterable[Demonstration], weights: Mapping[str, float]) -> Vector:
+    """ρ_0, the weighted share of demonstrations that start in each state, shape (S,)."""
+    starts: Vector = np.zeros(model.n_states)
+    for demonstration in sorted(demonstrations, key=lambda one: one.id):
+        starts[demonstration.states[0]] += weights[demonstration.id]
+    starts /= starts.sum()
+    return starts

@@ -5,7 +5,7 @@ from types import MappingProxyType
 
 from irl_core.checks import shown
 from irl_core.errors import InvalidSettings
-from irl_core.learners.base import Frame, Learner, LearningResult, LearningState, Outcome
+from irl_core.learners.base import Family, Frame, Learner, LearningResult, LearningState, Outcome, Posterior
 from irl_core.learners.irlf import Irlf
 from irl_core.learners.irlfr import Irlfr
 from irl_core.learners.irlr import Irlr
@@ -58,12 +58,14 @@ def _show(
 
 __all__ = [
     "LEARNERS",
+    "Family",
     "Frame",
     "Learner",
     "LearningProblem",
     "LearningResult",
     "LearningState",
     "Outcome",
+    "Posterior",
     "Settings",
     "learn",
 ]

@@ -1,15 +1,18 @@
 """What every learner is and gives: states to resume from, frames to look at, a result that says how it ended."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from enum import StrEnum
-from typing import Any, Protocol, Self
+from typing import Any, Literal, Protocol, Self, TypeAlias
 
 import numpy as np
 
 from irl_core.arrays import Policy, Reward, Vector, read_only
 from irl_core.errors import IrlError
 from irl_core.learners.problem import LearningProblem
+
+Family: TypeAlias = Literal["paper", "ours", "baseline"]
+"""The paper's four learners, our own, and those of the neighbourhood that they are measured against."""
 
 
 class Outcome(StrEnum):
@@ -34,9 +37,15 @@ class Learner(Protocol):
     @property
     def title(self) -> str: ...
     @property
+    def summary(self) -> str: ...
+    @property
+    def family(self) -> Family: ...
+    @property
     def uses_ranking(self) -> bool: ...
     @property
     def uses_failures(self) -> bool: ...
+    @property
+    def uses_scores(self) -> bool: ...
     @property
     def references(self) -> tuple[str, ...]: ...
 
@@ -48,37 +57,52 @@ class Learner(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class LearningState:
-    """How far a learner is: w_D and w_F, each of shape (S,), λ, and the number of iterations made."""
+    """How far a learner is: the number of iterations made, and what it needs to go on, by name.
+
+    `values` are vectors and numbers, all float64; each learner says which in its module.
+    """
 
     learner: str
     iteration: int
-    w_success: Vector
-    w_failure: Vector
-    lam: float
+    values: Mapping[str, Vector | float]
     outcome: Outcome | None = None
 
     def __post_init__(self) -> None:
-        read_only(self.w_success)
-        read_only(self.w_failure)
-
-    @property
-    def reward(self) -> Reward:
-        """R = w_D + w_F, shape (S,): the features are one-hot."""
-        return self.w_success + self.w_failure
+        for value in self.values.values():
+            if isinstance(value, np.ndarray):
+                read_only(value)
 
     @property
     def is_finished(self) -> bool:
         """Whether learning has ended by itself."""
         return self.outcome is not None
 
+    def vector(self, name: str) -> Vector:
+        """The vector of this name. Raises IrlError if the state is of another learner."""
+        value = self.values.get(name)
+        if not isinstance(value, np.ndarray):
+            raise IrlError(f"The state of {self.learner} has no vector {name!r}.", field="state")
+        return value
+
+    def number(self, name: str) -> float:
+        """The number of this name. Raises IrlError if the state is of another learner."""
+        value = self.values.get(name)
+        if not isinstance(value, float):
+            raise IrlError(f"The state of {self.learner} has no number {name!r}.", field="state")
+        return value
+
+    def ended(self, outcome: Outcome) -> Self:
+        """The same state, with its verdict."""
+        return replace(self, outcome=outcome)
+
     def to_json(self) -> dict[str, Any]:
         """The state in JSON; Python writes floats so that they read back exactly."""
         return {
             "learner": self.learner,
             "iteration": self.iteration,
-            "w_success": self.w_success.tolist(),
-            "w_failure": self.w_failure.tolist(),
-            "lambda": self.lam,
+            "values": {
+                name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in self.values.items()
+            },
             "outcome": None if self.outcome is None else self.outcome.value,
         }
 
@@ -89,18 +113,20 @@ class LearningState:
             return cls(
                 learner=data["learner"],
                 iteration=data["iteration"],
-                w_success=np.array(data["w_success"], dtype=np.float64),
-                w_failure=np.array(data["w_failure"], dtype=np.float64),
-                lam=float(data["lambda"]),
+                values={name: _value(value) for name, value in data["values"].items()},
                 outcome=None if data["outcome"] is None else Outcome(data["outcome"]),
             )
-        except (KeyError, TypeError, ValueError) as error:
+        except (AttributeError, KeyError, TypeError, ValueError) as error:
             raise IrlError(f"This is not the state of a learner: {error!r}.", field="state") from error
 
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """What a learner shows of itself at one iteration. `gap` is ‖μ^π − μ̃‖∞, in visits."""
+    """What a learner shows of itself at one iteration.
+
+    `gap` is ‖μ^π − μ̃ᴰ‖∞, in visits (feature counts, where the features are not one-hot). `log_likelihood` is what the
+    learner climbs; its module says of what.
+    """
 
     learner: str
     iteration: int
@@ -126,12 +152,48 @@ class Frame:
 
 
 @dataclass(frozen=True, eq=False)
-class LearningResult:
-    """What a learner came to. `policy`, shape (S, 4), is the one that is executed; the others have shape (S,).
+class Posterior:
+    """What a Bayesian learner does not know. `level` is the probability that an interval holds.
 
-    `spectral_radius` is ρ of the learned reward's path sum: from 1 on, paths of any length would weigh infinitely much
-    and the policy depends on the horizon. `executed_gap` is how far, in visits, executing the stationary policy is from
-    the path distribution it was taken from.
+    `reward_low` and `reward_high`, shape (S,); `policy_agreement`, shape (S,): the share of draws whose best plan takes
+    the action that is executed; `return_low` and `return_high`: of the executed policy, in units of the learned reward.
+    """
+
+    level: float
+    reward_low: Vector
+    reward_high: Vector
+    policy_agreement: Vector
+    return_low: float
+    return_high: float
+    n_draws: int
+    acceptance: float
+
+    def __post_init__(self) -> None:
+        for array in (self.reward_low, self.reward_high, self.policy_agreement):
+            read_only(array)
+
+    def to_json(self) -> dict[str, Any]:
+        """The posterior in JSON, its vectors as flat lists."""
+        return {
+            one.name: value.tolist() if isinstance(value, np.ndarray) else value
+            for one in fields(self)
+            for value in [getattr(self, one.name)]
+        }
+
+    @classmethod
+    def from_json(cls, data: Mapping[str, Any]) -> Self:
+        """The posterior that `to_json` wrote."""
+        return cls(**{name: _value(value) if isinstance(value, list) else value for name, value in data.items()})
+
+
+@dataclass(frozen=True, eq=False)
+class LearningResult:
+    """What a learner came to. `policy`, shape (S, A), is the one that is executed; the others have shape (S,).
+
+    `weights`, shape (K,), are those of the features (one-hot: the reward itself). `spectral_radius` is ρ of the learned
+    reward's path sum: from 1 on, paths of any length would weigh infinitely much and the policy depends on the horizon.
+    `executed_gap` is how far, in visits, executing the stationary policy is from the path distribution it was taken
+    from. `shape` is how states are laid out: (rows, cols), or (1, S) off the grid.
     """
 
     learner: str
@@ -147,13 +209,15 @@ class LearningResult:
     shape: tuple[int, int]
     spectral_radius: float
     executed_gap: float
+    weights: Vector
+    posterior: Posterior | None = None
 
     def __post_init__(self) -> None:
-        for array in (self.reward, self.policy, self.visitation):
+        for array in (self.reward, self.policy, self.visitation, self.weights):
             read_only(array)
 
     def to_json(self) -> dict[str, Any]:
-        """The result as the API has it: reward and visitation as rows × cols."""
+        """The result as the API has it: reward and visitation as rows × cols; weights unless they are the reward."""
         return {
             "learner": self.learner,
             "outcome": self.outcome.value,
@@ -167,12 +231,16 @@ class LearningResult:
             "n_left_out": self.n_left_out,
             "spectral_radius": self.spectral_radius,
             "executed_gap": self.executed_gap,
+            "weights": None if np.array_equal(self.weights, self.reward) else self.weights.tolist(),
+            "posterior": None if self.posterior is None else self.posterior.to_json(),
         }
 
     @classmethod
     def from_json(cls, data: Mapping[str, Any]) -> Self:
-        """The result that `to_json` wrote."""
-        reward = np.array(data["reward"], dtype=np.float64)
+        """The result that `to_json` wrote, now or before there were weights and posteriors."""
+        by_square = _value(data["reward"])
+        reward = by_square.reshape(-1)
+        weights, posterior = data.get("weights"), data.get("posterior")
         return cls(
             learner=data["learner"],
             outcome=Outcome(data["outcome"]),
@@ -180,17 +248,24 @@ class LearningResult:
             iterations=data["iterations"],
             gap=data["gap"],
             log_likelihood=data["log_likelihood"],
-            reward=reward.reshape(-1),
-            policy=np.array(data["policy"], dtype=np.float64),
-            visitation=np.array(data["visitation"], dtype=np.float64).reshape(-1),
+            reward=reward,
+            policy=_value(data["policy"]),
+            visitation=_value(data["visitation"]).reshape(-1),
             n_left_out=data["n_left_out"],
-            shape=(reward.shape[0], reward.shape[1]),
+            shape=by_square.shape,
             spectral_radius=data["spectral_radius"],
             executed_gap=data["executed_gap"],
+            weights=reward if weights is None else _value(weights),
+            posterior=None if posterior is None else Posterior.from_json(posterior),
         )
 
 
-def _rounded(value: Any, digits: int | None) -> Any:  # noqa: ANN401 - a number, or lists of them to any depth
+def _value(data: Any) -> Any:  # noqa: ANN401 - a number, or lists of them to any depth
+    """A list as an array, a number as a float."""
+    return np.array(data, dtype=np.float64) if isinstance(data, list) else float(data)
+
+
+def _rounded(value: Any, digits: int | None) -> Any:  # noqa: ANN401 - as _value
     if digits is None:
         return value
     return [_rounded(one, digits) for one in value] if isinstance(value, list) else float(f"{value:.{digits}g}")

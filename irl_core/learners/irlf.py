@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import final
 
 from irl_core.learners import descent
-from irl_core.learners.base import Frame, LearningResult, LearningState
+from irl_core.learners.base import Family, Frame, LearningResult, LearningState
 from irl_core.learners.problem import LearningProblem
 
 
@@ -19,8 +19,11 @@ class Irlf:
 
     name: str = field(default="irlf", init=False)
     title: str = field(default="IRLF", init=False)
+    summary: str = field(default="Matches the successes and keeps away from the failures, each alike.", init=False)
+    family: Family = field(default="paper", init=False)
     uses_ranking: bool = field(default=False, init=False)
     uses_failures: bool = field(default=True, init=False)
+    uses_scores: bool = field(default=False, init=False)
     references: tuple[str, ...] = field(
         default=(
             "Shiarlis, Messias, Whiteson: Inverse reinforcement learning from failure. AAMAS 2016.",

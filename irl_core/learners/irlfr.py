@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import final
 
 from irl_core.learners import descent
-from irl_core.learners.base import Frame, LearningResult, LearningState
+from irl_core.learners.base import Family, Frame, LearningResult, LearningState
 from irl_core.learners.problem import LearningProblem
 
 
@@ -19,8 +19,13 @@ class Irlfr:
 
     name: str = field(default="irlfr", init=False)
     title: str = field(default="IRLFR", init=False)
+    summary: str = field(
+        default="Matches the best successes most, keeps away from the worst failures most.", init=False
+    )
+    family: Family = field(default="paper", init=False)
     uses_ranking: bool = field(default=True, init=False)
     uses_failures: bool = field(default=True, init=False)
+    uses_scores: bool = field(default=False, init=False)
     references: tuple[str, ...] = field(
         default=(
             "Inverse reinforcement learning through failure and ranking (the IRLFR paper), Sec. III-D.",

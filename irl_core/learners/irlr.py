@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import final
 
 from irl_core.learners import descent
-from irl_core.learners.base import Frame, LearningResult, LearningState
+from irl_core.learners.base import Family, Frame, LearningResult, LearningState
 from irl_core.learners.problem import LearningProblem
 
 
@@ -18,8 +18,11 @@ class Irlr:
 
     name: str = field(default="irlr", init=False)
     title: str = field(default="IRLR", init=False)
+    summary: str = field(default="Matches the successes, the better the more.", init=False)
+    family: Family = field(default="paper", init=False)
     uses_ranking: bool = field(default=True, init=False)
     uses_failures: bool = field(default=False, init=False)
+    uses_scores: bool = field(default=False, init=False)
     references: tuple[str, ...] = field(
         default=(
             "Inverse reinforcement learning through failure and ranking (the IRLFR paper), Sec. III-D.",

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import final
 
 from irl_core.learners import descent
-from irl_core.learners.base import Frame, LearningResult, LearningState
+from irl_core.learners.base import Family, Frame, LearningResult, LearningState
 from irl_core.learners.problem import LearningProblem
 
 
@@ -18,8 +18,11 @@ class Meirl:
 
     name: str = field(default="meirl", init=False)
     title: str = field(default="MEIRL", init=False)
+    summary: str = field(default="Matches the successes, each alike.", init=False)
+    family: Family = field(default="paper", init=False)
     uses_ranking: bool = field(default=False, init=False)
     uses_failures: bool = field(default=False, init=False)
+    uses_scores: bool = field(default=False, init=False)
     references: tuple[str, ...] = field(
         default=("Ziebart, Maas, Bagnell, Dey: Maximum entropy inverse reinforcement learning. AAAI 2008.",),
         init=False,

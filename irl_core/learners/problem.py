@@ -1,14 +1,26 @@
-"""What a learner learns from: a world, the demonstrations in it, their order, and the settings. Checked once, here."""
+"""What a learner learns from: a model, the demonstrations in it, their order, and the settings. Checked once, here.
+
+The model is a World, of which a learner may know the transitions (`mdp`) and what a person sees, never the rewards; or
+a GridMdp or SparseMdp, whose demonstrations may start anywhere (`demonstration_of` makes them).
+"""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Protocol, Self
 
-import numpy as np
-
 from irl_core.checks import is_integer, shown
-from irl_core.errors import ImpossibleDemonstration, InvalidRanking, InvalidSettings, MissingDemonstrations
+from irl_core.errors import (
+    ImpossibleDemonstration,
+    InvalidModel,
+    InvalidRanking,
+    InvalidSettings,
+    MissingDemonstrations,
+)
+from irl_core.features import FeatureMap, features_of
 from irl_core.learners.settings import Settings
+from irl_core.mdp import GridMdp, Mdp, as_mdp
+from irl_core.mdp.dynamics import transition_chances
 from irl_core.types import OUTCOMES, Demonstration, DemonstrationOutcome, Ranking, World
 from irl_core.weights import rank_weights, uniform_weights
 
@@ -32,7 +44,7 @@ class LearningProblem:
     unfinished, those that ended at a goal; `n_left_out` counts the others. `orders` has the groups of ranked outcomes.
     """
 
-    world: World
+    model: World | Mdp
     demonstrations: tuple[Demonstration, ...]
     settings: Settings
     seed: int
@@ -41,10 +53,33 @@ class LearningProblem:
     orders: Mapping[DemonstrationOutcome, tuple[tuple[str, ...], ...]]
     n_left_out: int
 
+    @property
+    def mdp(self) -> Mdp:
+        """The transitions, without rewards."""
+        return as_mdp(self.model)
+
+    @property
+    def world(self) -> World:
+        """The world, if the model is one. Raises InvalidModel where it is not."""
+        if not isinstance(self.model, World):
+            raise InvalidModel("This needs a World: a grid with rewards that a person sees.", field="model")
+        return self.model
+
+    @cached_property
+    def features(self) -> FeatureMap:
+        """φ, by the settings. Raises InvalidFeatures where the model has no such features."""
+        return features_of(self.settings.features, self.model)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """How states are laid out: (rows, cols), or (1, S) off the grid."""
+        mdp = self.mdp
+        return (mdp.rows, mdp.cols) if isinstance(mdp, GridMdp) else (1, mdp.n_states)
+
     @classmethod
     def build(
         cls,
-        world: World,
+        model: World | Mdp,
         demonstrations: Iterable[Demonstration],
         rankings: Iterable[Ranking] = (),
         settings: Settings | None = None,
@@ -54,14 +89,14 @@ class LearningProblem:
         settings = settings or Settings()
         given = tuple(demonstrations)
         for demonstration in given:
-            _check_demonstration(world, demonstration)
+            _check_demonstration(model, demonstration)
         _check_ids(given)
         failures = tuple(one for one in given if one.outcome == "failure")
         usable = tuple(one for one in failures if one.reached_goal or settings.unfinished_failures == "include")
         if not is_integer(seed) or seed < 0:
             raise InvalidSettings(f"seed must be a whole number from 0 on, not {shown(seed)}.", field="seed")
         return cls(
-            world=world,
+            model=model,
             demonstrations=given,
             settings=settings,
             seed=seed,
@@ -157,22 +192,25 @@ def _check_ids(given: tuple[Demonstration, ...]) -> None:
         seen.add(one.id)
 
 
-def _check_demonstration(world: World, one: Demonstration) -> None:
-    """Refuse what cannot have been played in this world; `simulate` made it, but perhaps in another one."""
-    states, actions = one.states, one.actions
-    if len(states) != len(actions) + 1 or len(one.rewards) != len(actions) or not 0 < len(actions) <= world.horizon:
-        _refuse(one, f"it needs 1 to {world.horizon} steps, one more state than actions, one reward a step")
-    if states.min() < 0 or states.max() >= world.n_states or states[0] != world.start:
-        _refuse(one, f"it must start in square {world.start} and stay below square {world.n_states}")
-    ahead = world.next_states[states[:-1]]
-    moved = states[1:]
-    fits = (ahead == moved[:, None]).any(axis=1) if world.slip else ahead[np.arange(len(actions)), actions] == moved
-    fits &= ~np.isin(states[:-1], world.goals) & (world.reward[moved] == one.rewards)
+def _check_demonstration(model: World | Mdp, one: Demonstration) -> None:
+    """Refuse what cannot have been played in this model; `simulate` made it, but perhaps in another one."""
+    mdp, states, actions = as_mdp(model), one.states, one.actions
+    if len(states) != len(actions) + 1 or len(one.rewards) != len(actions) or not 0 < len(actions) <= mdp.horizon:
+        _refuse(one, f"it needs 1 to {mdp.horizon} steps, one more state than actions, one reward a step")
+    if states.min() < 0 or states.max() >= mdp.n_states or (isinstance(model, World) and states[0] != model.start):
+        _refuse(one, f"it must start in square {mdp.start_states[0]} and stay below square {mdp.n_states}")
+    fits = ~mdp.terminal[states[:-1]] & (transition_chances(mdp, states, actions) > 0.0)
+    if isinstance(model, World):
+        fits &= model.reward[states[1:]] == one.rewards
     if not fits.all():
         _refuse(one, f"its step {int(fits.argmin())} does not exist there")
-    arrived = bool(np.isin(states[-1], world.goals))
-    if one.reached_goal != arrived or (one.outcome == "success") != (arrived and one.total >= 0.0):
+    arrived = bool(mdp.terminal[states[-1]])
+    if one.reached_goal != arrived or (isinstance(model, World) and one.outcome != _outcome(one, arrived=arrived)):
         _refuse(one, f"it says {one.outcome} and {one.ending}, which is not how it ends")
+
+
+def _outcome(one: Demonstration, *, arrived: bool) -> DemonstrationOutcome:
+    return "success" if arrived and one.total >= 0.0 else "failure"
 
 
 def _refuse(one: Demonstration, why: str) -> None:

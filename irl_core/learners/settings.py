@@ -1,20 +1,47 @@
-"""The settings of the four learners: the paper's symbols, their defaults and ranges, and what they mean."""
+"""The settings of the learners: the paper's symbols, their defaults and ranges, what they mean, and for whom."""
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, fields
-from typing import Any, Literal, Self
+from typing import Any, Literal, Self, TypeAlias
 
 from irl_core.checks import Refused, real_number, shown, whole_number
 from irl_core.errors import InvalidSettings
+from irl_core.features import FEATURE_NAMES, FeatureName
+from irl_core.inference.base import INFERENCE_KINDS, InferenceKind
+
+Group: TypeAlias = Literal["paper", "model"]
+"""The paper's descent; or the model underneath: which paths, which features, which optimiser."""
 
 
-def _number(default: float, *, symbol: str, minimum: float, maximum: float, help: str) -> Any:  # noqa: A002, ANN401
-    about = {"symbol": symbol, "minimum": minimum, "maximum": maximum, "choices": None, "help": help}
+def _number(
+    default: float,
+    *,
+    symbol: str,
+    minimum: float,
+    maximum: float,
+    help: str,  # noqa: A002 - the word the page uses
+    group: Group = "paper",
+) -> Any:  # noqa: ANN401 - a dataclass field, typed by its annotation
+    about = {"symbol": symbol, "minimum": minimum, "maximum": maximum, "choices": None, "help": help, "group": group}
     return field(default=default, metadata=about)
 
 
-def _choice(default: str, *, symbol: str, choices: tuple[str, ...], help: str) -> Any:  # noqa: A002, ANN401
-    about = {"symbol": symbol, "minimum": None, "maximum": None, "choices": list(choices), "help": help}
+def _choice(
+    default: str,
+    *,
+    symbol: str,
+    choices: tuple[str, ...],
+    help: str,  # noqa: A002 - as above
+    group: Group = "paper",
+) -> Any:  # noqa: ANN401 - as above
+    about = {
+        "symbol": symbol,
+        "minimum": None,
+        "maximum": None,
+        "choices": list(choices),
+        "help": help,
+        "group": group,
+    }
     return field(default=default, metadata=about)
 
 
@@ -61,6 +88,45 @@ class Settings:
         help="Whether to learn from failures that never reached the goal. The model is about paths that do.",
     )
 
+    inference: InferenceKind = _choice(  # noqa: RUF009 - it makes a field
+        "path",
+        symbol="P(ζ)",
+        group="model",
+        choices=INFERENCE_KINDS,
+        help="Which distribution a reward implies: over paths of at most N steps, of any length, by maximum causal"
+        " entropy, or the paper's Algorithm 1 to the letter (which is no gradient).",
+    )
+    discount: float = _number(
+        1.0,
+        symbol="γ",
+        group="model",
+        minimum=0.01,
+        maximum=1.0,
+        help="How much a later step counts, for causal inference.",
+    )
+    features: FeatureName = _choice(  # noqa: RUF009 - as above
+        "one_hot",
+        symbol="φ",
+        group="model",
+        choices=FEATURE_NAMES,
+        help="What the reward is a sum of: each square its own, or few features that squares share.",
+    )
+    optimiser: Literal["descent", "newton", "lbfgs"] = _choice(
+        "descent",
+        symbol="min",
+        group="model",
+        choices=("descent", "newton", "lbfgs"),
+        help="The paper's descent; or, for MEIRL and IRLR, an exact optimiser (IRLF and IRLFR have no objective).",
+    )
+    l2: float = _number(
+        0.0,
+        symbol="ℓ₂",
+        group="model",
+        minimum=0.0,
+        maximum=1e6,
+        help="How strongly large weights are held back: the ridge ℓ₂/2 · ‖w‖².",
+    )
+
     def __post_init__(self) -> None:
         for one in fields(self):
             object.__setattr__(self, one.name, _checked(one.name, getattr(self, one.name), one.metadata))
@@ -87,7 +153,7 @@ class Settings:
 
     @classmethod
     def describe(cls) -> list[dict[str, Any]]:
-        """What a page needs to ask for each: name, symbol, default, minimum, maximum, choices, help."""
+        """What a page needs to ask for each: name, symbol, default, minimum, maximum, choices, help, group."""
         return [{"name": one.name, "default": one.default, **one.metadata} for one in fields(cls)]
 
 

@@ -1,5 +1,16 @@
 """Models: Markov decision processes whose transitions are known. A grid, or any discrete one."""
 
-from irl_core.mdp.grid import GridMdp
+from typing import Any, TypeAlias
 
-__all__ = ["GridMdp"]
+from irl_core.mdp.grid import GridMdp, start_distribution
+from irl_core.mdp.sparse import SparseMdp
+
+Mdp: TypeAlias = GridMdp | SparseMdp
+
+
+def as_mdp(model: Any) -> Mdp:  # noqa: ANN401 - a World would be a circle of imports
+    """The model's transitions: a World's without its rewards, the model itself otherwise."""
+    return model if isinstance(model, GridMdp | SparseMdp) else model.mdp
+
+
+__all__ = ["GridMdp", "Mdp", "SparseMdp", "as_mdp", "start_distribution"]
