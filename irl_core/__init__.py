@@ -51,6 +51,7 @@ from irl_core.learners import (
 )
 from irl_core.mdp import GridMdp, Mdp, SparseMdp
 from irl_core.planning import HardPlan, SoftPlan, hard_plan, soft_plan, spectral_radius, visitation
+from irl_core.trajectories import demonstration_of
 from irl_core.types import Demonstration, Ranking, World
 from irl_core.weights import feature_counts, rank_weights, uniform_weights
 
@@ -93,6 +94,7 @@ __all__ = [
     "World",
     "WorldSection",
     "compare",
+    "demonstration_of",
     "draw_playable_world",
     "expected_return",
     "expected_visits",
