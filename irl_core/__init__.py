@@ -53,6 +53,7 @@ from irl_core.mdp import GridMdp, Mdp, SparseMdp
 from irl_core.planning import HardPlan, SoftPlan, hard_plan, soft_plan, spectral_radius, visitation
 from irl_core.trajectories import demonstration_of
 from irl_core.types import Demonstration, Ranking, World
+from irl_core.warm import warm_up
 from irl_core.weights import feature_counts, rank_weights, uniform_weights
 
 __all__ = [
@@ -118,5 +119,6 @@ __all__ = [
     "success_is_possible",
     "uniform_weights",
     "visitation",
+    "warm_up",
     "write_demonstration_file",
 ]
