@@ -115,6 +115,9 @@ def set_up(*, dev: bool = False) -> None:
             once("node", ["requirements/node.txt"], lambda: install_requirements(["requirements/node.txt"]))
         call("the browser's packages", [PYTHON, "hatch_build.py"])
         once("project", ["pyproject.toml", "hatch_build.py"], install_project)
+        if dev:  # `run` serves pages at once; there the worker compiles when it starts
+            kernels = sorted(str(path.relative_to(ROOT)) for path in ROOT.glob("irl_core/_kernels/*.py"))
+            once("compiled kernels", kernels, lambda: call("compiled kernels", [PYTHON, "-m", "irl_core.warm"]))
 
 
 def set_up_javascript_tools() -> None:
