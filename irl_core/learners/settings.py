@@ -2,15 +2,17 @@
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, fields
-from typing import Any, Literal, Self, TypeAlias
+from typing import Any, Final, Literal, Self, TypeAlias
 
 from irl_core.checks import Refused, real_number, shown, whole_number
 from irl_core.errors import InvalidSettings
 from irl_core.features import FEATURE_NAMES, FeatureName
 from irl_core.inference.base import INFERENCE_KINDS, InferenceKind
 
-Group: TypeAlias = Literal["paper", "model"]
-"""The paper's descent; or the model underneath: which paths, which features, which optimiser."""
+Group: TypeAlias = Literal["paper", "model", "model_free", "baseline"]
+"""The paper's descent; the model underneath (paths, features, optimiser); single learners; the baselines."""
+
+_WHOLE: Final = {"iterations", "episodes"}
 
 
 def _number(
@@ -127,6 +129,39 @@ class Settings:
         help="How strongly large weights are held back: the ridge ℓ₂/2 · ‖w‖².",
     )
 
+    episodes: int = _number(
+        500,
+        symbol="n_ζ",
+        group="model_free",
+        minimum=10,
+        maximum=100_000,
+        help="How many episodes the model-free learner plays in each iteration: the more, the less noise.",
+    )
+    preference_l2: float = _number(
+        0.1,
+        symbol="ℓ₂ᵀ",
+        group="baseline",
+        minimum=1e-9,
+        maximum=1e6,
+        help="T-REX: how strongly large weights are held back; orders can always be met better by larger ones.",
+    )
+    score_l2: float = _number(
+        0.1,
+        symbol="ℓ₂ˢ",
+        group="baseline",
+        minimum=1e-9,
+        maximum=1e6,
+        help="Score-based IRL: how strongly large weights are held back; there are more squares than scores.",
+    )
+    cloning_prior: float = _number(
+        0.1,
+        symbol="α_BC",
+        group="baseline",
+        minimum=1e-9,
+        maximum=1e6,
+        help="Behavioural cloning: how often each action counts as seen where some success came, before looking.",
+    )
+
     def __post_init__(self) -> None:
         for one in fields(self):
             object.__setattr__(self, one.name, _checked(one.name, getattr(self, one.name), one.metadata))
@@ -161,7 +196,7 @@ def _checked(name: str, value: object, about: Mapping[str, Any]) -> object:
     try:
         if about["choices"] is not None:
             return _one_of(value, about["choices"])
-        if name == "iterations":
+        if name in _WHOLE:
             return whole_number(value, minimum=about["minimum"], maximum=about["maximum"])
         return real_number(value, minimum=about["minimum"], maximum=about["maximum"])
     except Refused as refused:
