@@ -10,7 +10,7 @@ less than twice the shortest way from the nearest start.
 from collections.abc import Iterable
 from dataclasses import KW_ONLY, dataclass
 from functools import cached_property
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
@@ -19,6 +19,9 @@ from irl_core.arrays import BoolVector, IntMatrix, IntVector, Vector, read_only
 from irl_core.checks import is_integer, shown
 from irl_core.errors import InvalidModel
 from irl_core.world_checks import real, squares_of, whole
+
+if TYPE_CHECKING:
+    from irl_core.mdp.sparse import SparseMdp
 
 MAX_GRID_SIDE: Final = 4096
 _SUM_TOLERANCE: Final = 1e-9
@@ -90,6 +93,32 @@ class GridMdp:
     def start_states(self) -> IntVector:
         """Where an episode can start, ascending."""
         return np.flatnonzero(self.starts)
+
+    @cached_property
+    def _sparse(self) -> "SparseMdp":
+        from irl_core.mdp.sparse import SparseMdp  # noqa: PLC0415 - it imports from here
+
+        aside, slips = self.slip / (grid.N_ACTIONS - 1), self.slip > 0.0
+        laws = np.full((grid.N_ACTIONS, grid.N_ACTIONS), aside)
+        np.fill_diagonal(laws, 1.0 - self.slip)
+        reached = np.repeat(self.next_states, grid.N_ACTIONS, axis=0) if slips else self.next_states.reshape(-1, 1)
+        chances = np.tile(laws, (self.n_states, 1)) if slips else np.ones_like(reached, dtype=np.float64)
+        goes_on = np.repeat(~self.terminal, grid.N_ACTIONS)
+        return SparseMdp(
+            indptr=np.concatenate([[0], np.cumsum(goes_on * reached.shape[1])]),
+            indices=reached[goes_on].reshape(-1),
+            probabilities=chances[goes_on].reshape(-1),
+            n_states=self.n_states,
+            n_actions=grid.N_ACTIONS,
+            pays=np.zeros((self.n_states, grid.N_ACTIONS)),
+            terminal=self.terminal,
+            start=self.starts,
+            horizon=self.horizon,
+        )
+
+    def to_sparse(self) -> "SparseMdp":
+        """The same model with its transitions written out; several directions may lead to one state."""
+        return self._sparse
 
     def _settle_horizon(self) -> None:
         steps = grid.distances_from(self.next_states, self.start_states)[list(self.goals)]
