@@ -84,8 +84,7 @@ class ModelFree:
         default=(
             "Inverse reinforcement learning through failure and ranking (the IRLFR paper), Sec. III-D.",
             "Boularias, Kober, Peters: Relative entropy inverse reinforcement learning. AISTATS 2011.",
-            "Finn, Levine, Abbeel: Guided cost learning: Deep inverse optimal control via policy optimization."
-            " ICML 2016.",
+            "Finn, Levine, Abbeel: Guided cost learning. ICML 2016.",
             "Ziebart, Maas, Bagnell, Dey: Maximum entropy inverse reinforcement learning. AAAI 2008.",
         ),
         init=False,
