@@ -1,0 +1,34 @@
+"""How a simulated person orders attempts: by their totals, with mistakes of a stated size.
+
+Each attempt seems to be worth its total plus `noise` · g, g standard Gumbel. The order by that is Plackett–Luce:
+attempt i is put first with probability e^{total_i / noise} / Σ_j e^{total_j / noise}, then again among the rest; of two
+attempts Δ apart, the worse is put first with probability 1 / (1 + e^{Δ / noise}). Failures, worst first, likewise with
+e^{−total / noise}. Attempts that seem to be at most `ties_within` apart from their neighbour share a place.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from irl_core.types import Demonstration, DemonstrationOutcome, Ranking
+
+
+def rank_by_total(
+    outcome: DemonstrationOutcome,
+    demonstrations: Sequence[Demonstration],
+    rng: np.random.Generator,
+    *,
+    noise: float = 0.0,
+    ties_within: float = 0.0,
+) -> Ranking:
+    """The order in which somebody puts attempts of one outcome; `noise` and `ties_within` are in points of reward."""
+    sign = 1.0 if outcome == "success" else -1.0
+    mistakes = noise * rng.gumbel(size=len(demonstrations))
+    seems = {one.id: sign * one.total + float(mistake) for one, mistake in zip(demonstrations, mistakes, strict=True)}
+    groups: list[list[str]] = []
+    for id_ in sorted(seems, key=lambda id_: -seems[id_]):
+        if groups and seems[groups[-1][-1]] - seems[id_] <= ties_within:
+            groups[-1].append(id_)
+        else:
+            groups.append([id_])
+    return Ranking(outcome, tuple(tuple(group) for group in groups))
