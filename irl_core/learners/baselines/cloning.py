@@ -36,7 +36,7 @@ class BehaviouralCloning:
     uses_scores: bool = field(default=False, init=False)
     references: tuple[str, ...] = field(
         default=(
-            "Pomerleau: Efficient training of artificial neural networks for autonomous navigation. Neural Comput. 1991.",
+            "Pomerleau: Efficient training of artificial neural networks for autonomous navigation. 1991.",
             "Bain, Sammut: A framework for behavioural cloning. Machine Intelligence 15, 1999.",
         ),
         init=False,

@@ -62,8 +62,8 @@ class Trex:
     references: tuple[str, ...] = field(
         default=(
             (
-                "Brown, Goo, Nagarajan, Niekum: Extrapolating beyond suboptimal demonstrations via inverse reinforcement"
-                " learning from observations. ICML 2019."
+                "Brown, Goo, Nagarajan, Niekum: Extrapolating beyond suboptimal demonstrations via inverse"
+                " reinforcement learning from observations. ICML 2019."
             ),
             "Bradley, Terry: Rank analysis of incomplete block designs. Biometrika 39, 1952.",
         ),
