@@ -102,15 +102,31 @@ class SparseMdp:
         summed.eliminate_zeros()
         return summed
 
+    def followed(self, policy: Matrix) -> "csr_array[Any, tuple[int, int]]":
+        """How states follow each other under a policy of shape (S, A): Σ_a π(a | s) T(s′ | s, a), shape (S, S)."""
+        from scipy.sparse import csr_array  # noqa: PLC0415 - as above
+
+        chances = self.probabilities * policy.reshape(-1)[self.rows]
+        return csr_array((chances, self.indices, self.indptr[:: self.n_actions]), shape=(self.n_states, self.n_states))
+
     @cached_property
     def steps_from_start(self) -> IntVector:
         """Fewest steps from the nearest start to each state, −1 where there is no way, shape (S,)."""
-        return self._distances(self.start_states, self.flow)
+        return self.steps_from(self.start_states)
+
+    @property
+    def reachable(self) -> BoolVector:
+        """Where an episode can come, the starts included, shape (S,)."""
+        return self.steps_from_start >= 0
 
     @cached_property
     def steps_to_end(self) -> IntVector:
         """Fewest steps to the nearest terminal state, −1 where there is no way, shape (S,)."""
         return self._distances(np.flatnonzero(self.terminal), self.flow.transpose().tocsr())
+
+    def steps_from(self, origins: IntVector) -> IntVector:
+        """Fewest steps from the nearest of these states to each state, −1 where there is no way, shape (S,)."""
+        return self._distances(origins, self.flow)
 
     def _distances(self, origins: IntVector, links: "csr_array[Any, tuple[int, int]]") -> IntVector:
         steps = np.full(self.n_states, -1, dtype=np.int64)
