@@ -85,7 +85,9 @@ def worker(
 @cli.command()
 def learn(
     file: Annotated[Path, typer.Argument(help="A demonstration file (JSON lines), as the compare page gives it.")],
-    learners: Annotated[str, typer.Option(help="Names, separated by commas.")] = "meirl,irlr,irlf,irlfr",
+    learners: Annotated[
+        str | None, typer.Option(help="Names, separated by commas, or `all`; if left out, the paper's four and birlfr.")
+    ] = None,
     seed: Annotated[int, typer.Option(help="For the start weights and the episodes.", min=0)] = 0,
     changed: Annotated[
         list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Change a setting; may be repeated.")
@@ -96,7 +98,7 @@ def learn(
     from irl_core import IrlError  # noqa: PLC0415
 
     try:
-        result = _learn(file, [name.strip() for name in learners.split(",")], seed, _settings_of(changed or []))
+        result = _learn(file, _names_of(learners), seed, _settings_of(changed or []))
     except (IrlError, OSError, UnicodeDecodeError) as error:
         _refuse(f"{file}: {error}")
     print_comparison(result["comparison"]["entries"])
@@ -146,9 +148,6 @@ def _learn(file: Path, names: list[str], seed: int, changed: Mapping[str, Any]) 
     """Do what a run of the web app does, without the web app."""
     import irl_core  # noqa: PLC0415
 
-    unknown = [name for name in names if name not in irl_core.LEARNERS]
-    if unknown:
-        _refuse(f"There is no learner {unknown[0]!r}; there are {', '.join(irl_core.LEARNERS)}.")
     read = irl_core.read_demonstration_file(file)
     problem = irl_core.LearningProblem.build(
         read.world, read.demonstrations, read.rankings, settings=irl_core.Settings.from_json(changed), seed=seed
@@ -163,6 +162,19 @@ def _learn(file: Path, names: list[str], seed: int, changed: Mapping[str, Any]) 
         "rollouts": comparison.pop("rollouts"),
         "comparison": comparison,
     }
+
+
+def _names_of(learners: str | None) -> list[str]:
+    """Read `--learners`."""
+    from irl_core import DEFAULT_LEARNERS, LEARNERS  # noqa: PLC0415
+
+    if learners is None or learners.strip() == "all":
+        return list(DEFAULT_LEARNERS if learners is None else LEARNERS)
+    names = [name.strip() for name in learners.split(",")]
+    unknown = [name for name in names if name not in LEARNERS]
+    if unknown:
+        _refuse(f"There is no learner {unknown[0]!r}; there are {', '.join(LEARNERS)}.")
+    return names
 
 
 def _settings_of(changed: list[str]) -> dict[str, Any]:

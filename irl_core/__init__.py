@@ -38,6 +38,7 @@ from irl_core.gridworld import (
 )
 from irl_core.inference import BatchInferred, Inferred, infer, infer_batch
 from irl_core.learners import (
+    DEFAULT_LEARNERS,
     LEARNERS,
     Frame,
     Learner,
@@ -57,6 +58,7 @@ from irl_core.warm import warm_up
 from irl_core.weights import feature_counts, rank_weights, uniform_weights
 
 __all__ = [
+    "DEFAULT_LEARNERS",
     "GENERATOR_VERSION",
     "LEARNERS",
     "BatchInferred",

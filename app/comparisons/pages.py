@@ -9,7 +9,7 @@ from starlette.responses import RedirectResponse, Response
 from app.comparisons import queries
 from app.demonstrations.pages import demonstrations_json
 from app.dependencies import DatabaseFromApp
-from app.learning.convert import describe_settings, snapshot_rankings, to_out
+from app.learning.convert import describe_learners, describe_settings, snapshot_rankings, to_out
 from app.learning.dependencies import RunFromPath
 from app.learning.queries import demonstrations_of, latest_done_run, results, world_of
 from app.pages import PathState, path_state, render
@@ -26,7 +26,9 @@ class ComparePage:
     path: PathState = field(metadata={"help": "How far this visitor has come in this world."})
     world: dict[str, Any] = field(metadata={"help": "The world, as the API has it."})
     data: dict[str, Any] = field(
-        metadata={"help": "The page data: world, demonstrations, rankings, run, comparison, rollouts, settings."}
+        metadata={
+            "help": "The page data: world, demonstrations, rankings, run, learners, comparison, rollouts, settings."
+        }
     )
 
 
@@ -55,6 +57,7 @@ def show_comparison(
         "demonstrations": demonstrations_json(rows),
         "rankings": snapshot_rankings(run),
         "run": to_out(run, stored).model_dump(mode="json"),
+        "learners": describe_learners(run.learners),
         "comparison": queries.comparison_of(run),
         "rollouts": queries.rollouts_of(run),
         "settings": describe_settings(),

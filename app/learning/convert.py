@@ -1,12 +1,15 @@
 """Rows to what irl_core learns from, and back to what crosses the wire."""
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, Final
 
 from app.demonstrations.convert import demonstration_from_row
 from app.learning.schemas import RunOut
 from app.models import Demonstration, Run, RunResult
-from irl_core import LEARNERS, LearningProblem, Ranking, Settings, World, rank_weights
+from irl_core import DEFAULT_LEARNERS, LEARNERS, LearningProblem, Ranking, Settings, World, rank_weights
+
+SEEK_THE_VISITS: Final = frozenset({"meirl", "irlr", "irlf", "irlfr", "model_free"})
+"""Learners whose iterations close the gap to the play. That of the others only tells how differently they walk."""
 
 
 def to_problem(
@@ -45,23 +48,34 @@ def snapshot_rankings(run: Run) -> dict[str, dict[str, Any] | None]:
     }
 
 
-def describe_learners(problem: LearningProblem) -> list[dict[str, Any]]:
-    """List the learners, each with the sentence that says why it cannot learn from this, or None."""
+def describe_learners(names: Iterable[str] = tuple(LEARNERS)) -> list[dict[str, Any]]:
+    """List learners with what a page says of them."""
     return [
         {
             "name": name,
-            "title": learner.title,
-            "uses_ranking": learner.uses_ranking,
-            "uses_failures": learner.uses_failures,
-            "missing": problem.missing(learner),
+            "title": LEARNERS[name].title,
+            "summary": LEARNERS[name].summary,
+            "family": LEARNERS[name].family,
+            "uses_ranking": LEARNERS[name].uses_ranking,
+            "uses_failures": LEARNERS[name].uses_failures,
+            "uses_scores": LEARNERS[name].uses_scores,
+            "seeks_visits": name in SEEK_THE_VISITS,
         }
-        for name, learner in LEARNERS.items()
+        for name in names
+    ]
+
+
+def describe_choice(problem: LearningProblem) -> list[dict[str, Any]]:
+    """List all learners to choose from; `missing` says in a sentence why one cannot learn from this, or is None."""
+    return [
+        told | {"preselected": told["name"] in DEFAULT_LEARNERS, "missing": problem.missing(LEARNERS[told["name"]])}
+        for told in describe_learners()
     ]
 
 
 def describe_settings() -> list[dict[str, Any]]:
-    """List the settings with their symbols in the paper, defaults, ranges and what each does."""
-    return Settings.describe()
+    """List the settings with their symbols in the paper, defaults, ranges, what each does and for whom."""
+    return [one | {"whole": isinstance(one["default"], int)} for one in Settings.describe()]
 
 
 def to_out(run: Run, results: Mapping[str, RunResult]) -> RunOut:

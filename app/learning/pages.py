@@ -11,7 +11,7 @@ from app.demonstrations.pages import demonstrations_json
 from app.demonstrations.queries import all_in_world
 from app.dependencies import DatabaseFromApp
 from app.learning import queries, service
-from app.learning.convert import describe_learners, describe_settings, to_out, to_problem
+from app.learning.convert import describe_choice, describe_settings, to_out, to_problem
 from app.learning.dependencies import RunFromPath
 from app.models import Run
 from app.pages import PathState, path_state, render
@@ -64,7 +64,7 @@ def _page(session: Session, world: StoredWorld, visitor_id: str | None, run: Run
         "demonstrations": demonstrations_json(rows),
         "rankings": rankings_out(newest(session, visitor_id, world.id)).model_dump(mode="json"),
         "run": _run_json(session, run) if run else None,
-        "learners": describe_learners(problem),
+        "learners": describe_choice(problem),
         "settings": describe_settings(),
     }
     return LearnPage(path=path_state(session, visitor_id, world.id, "learn"), world=data["world"], data=data)

@@ -19,8 +19,13 @@ class RunIn(BaseModel):
 
     learners: Annotated[
         list[Annotated[str, Field(max_length=40)]],
-        Field(min_length=1, max_length=20, description="Names of learners, in the order in which they shall learn."),
-    ] = ["meirl", "irlr", "irlf", "irlfr"]
+        Field(
+            min_length=1,
+            max_length=20,
+            description="Names of learners, in the order in which they shall learn; if left out, those that the learn"
+            " page chooses: the paper's four and Bayesian IRLFR.",
+        ),
+    ] = []
     settings: Annotated[
         dict[Word, int | float | Word],
         Field(
@@ -45,7 +50,8 @@ class RunOut(BaseModel):
     settings: dict[str, Any]
     learners: dict[str, dict[str, Any]] = Field(
         description="By name: outcome, sentence, iterations, gap, log_likelihood, reward[rows][cols], "
-        "policy[rows·cols][4] (the one that is executed), visitation[rows][cols]; outcome is null until then."
+        "policy[rows·cols][4] (the one that is executed), visitation[rows][cols], weights of the features (null where "
+        "they are the reward), posterior (null but for Bayesian learners); outcome is null until then."
     )
     n_demonstrations: int
     n_left_out: int = Field(description="Failures that never reached the goal and were not learned from.")

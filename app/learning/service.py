@@ -6,7 +6,6 @@ import uuid
 from collections.abc import Sequence
 from importlib.metadata import version
 
-import numpy as np
 from sqlalchemy import update
 from sqlalchemy.orm import Session
 
@@ -20,7 +19,7 @@ from app.learning.schemas import RunIn
 from app.models import Demonstration, Run
 from app.rankings import queries as rankings
 from app.worlds.convert import StoredWorld
-from irl_core import LEARNERS
+from irl_core import DEFAULT_LEARNERS, LEARNERS
 
 CANCELLED = "You cancelled this run."
 
@@ -31,18 +30,19 @@ def learn_later(session: Session, jobs: Jobs, *, world: StoredWorld, visitor_id:
     Raises Unprocessable for unknown learners and for rankings that no longer fit, and irl_core's InvalidSettings and
     MissingDemonstrations for what a learner could not start with.
     """
-    _check_names(asked.learners)
+    names = asked.learners or list(DEFAULT_LEARNERS)
+    _check_names(names)
     kept = demonstrations.kept_in_world(session, visitor_id, world.id)
     groups = current_rankings(session, visitor_id, world.id, kept)
     seed = secrets.randbelow(2**31) if asked.seed is None else asked.seed
     problem = to_problem(world.world, kept, groups, settings=asked.settings, seed=seed)
-    for name in asked.learners:
+    for name in names:
         LEARNERS[name].start(problem)
     run = Run(
         id=str(uuid.uuid4()),
         world_id=world.id,
         visitor_id=visitor_id,
-        learners=asked.learners,
+        learners=names,
         settings=problem.settings.to_json(),
         seed=seed,
         demonstrations=[row.id for row in kept],
@@ -87,7 +87,8 @@ def current_rankings(
 
 def software_versions() -> dict[str, str]:
     """Name what a result depends on beside its inputs."""
-    return {"irlfr": version("irlfr"), "numpy": np.__version__, "python": platform.python_version()}
+    packages = ("irlfr", "numba", "numpy", "scipy")
+    return {name: version(name) for name in packages} | {"python": platform.python_version()}
 
 
 def _check_names(names: Sequence[str]) -> None:

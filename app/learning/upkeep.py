@@ -52,18 +52,22 @@ class Upkeep:
 
     def look_after(self) -> None:
         """Do all of it once."""
-        self._database.write(self._show_life)
+        self.show_life()
         self._return_idle_jobs()
         self._end_lost_runs()
         if time.monotonic() >= self._forget_next:
             self._forget_old_jobs()
             self._forget_next = time.monotonic() + FORGET_EVERY_S
 
+    def show_life(self) -> None:
+        """Leave a sign of life."""
+        self._database.write(self._sign)
+
     def say_goodbye(self) -> None:
         """Take the sign of life down."""
         self._database.write(lambda session: session.execute(delete(Worker).where(Worker.name == self._name)))
 
-    def _show_life(self, session: Session) -> None:
+    def _sign(self, session: Session) -> None:
         values = {"name": self._name, "pid": os.getpid(), "seen_at": clock.now()}
         session.execute(insert(Worker).values(values).on_conflict_do_update(index_elements=["name"], set_=values))
 

@@ -22,13 +22,14 @@ from app.db import CANNOT_WRITE, WORKER_PATIENCE_MS, Database, make_engine, migr
 from app.learning import steps
 from app.learning.jobs import APPLICATION, APPLICATION_VERSION, QUEUE, WORKFLOW
 from app.learning.upkeep import Upkeep, lock_of
-from irl_core import IrlError
+from irl_core import IrlError, warm_up
 
 logger = logging.getLogger(__name__)
 P = ParamSpec("P")
 T = TypeVar("T")
 
 UPKEEP_EVERY_S = 3.0
+SHOW_LIFE_EVERY_S = 1.0
 LOOK_FOR_RUNS_EVERY_S = 0.1
 TRY_AGAIN_AFTER_S = 1.0
 SAY_GOODBYE_WITHIN_S = 1.0
@@ -115,6 +116,16 @@ def _wait_for(lock: FileLock, stop: threading.Event) -> bool:
 def _work(settings: Settings, name: str, stop: threading.Event) -> None:
     database = Database(settings, patience_ms=WORKER_PATIENCE_MS)
     at_work: set[str] = set()
+    upkeep = Upkeep(database, name=name, data_dir=settings.data_dir, at_work=at_work)
+    _warm_up(upkeep, stop)
+    if not stop.is_set():
+        _launch(settings, name, database, at_work)
+        _keep_up(upkeep, stop)
+    _say_goodbye(upkeep)
+
+
+def _launch(settings: Settings, name: str, database: Database, at_work: set[str]) -> None:
+    """Begin to take jobs."""
     _define_workflow(database, at_work)
     DBOS(
         config=DBOSConfig(
@@ -132,7 +143,15 @@ def _work(settings: Settings, name: str, stop: threading.Event) -> None:
     DBOS.register_queue(
         QUEUE, worker_concurrency=1, partition_concurrency=1, polling_interval_sec=LOOK_FOR_RUNS_EVERY_S
     )
-    _keep_up(Upkeep(database, name=name, data_dir=settings.data_dir, at_work=at_work), stop)
+
+
+def _warm_up(upkeep: Upkeep, stop: threading.Event) -> None:
+    """Compile what the learners use before the first run needs it: on a fresh installation that takes a while."""
+    warming = threading.Thread(target=warm_up, daemon=True)
+    warming.start()
+    while warming.is_alive() and not stop.is_set():
+        _try(upkeep.show_life)
+        warming.join(SHOW_LIFE_EVERY_S)
 
 
 def _define_workflow(database: Database, at_work: set[str]) -> None:
@@ -150,11 +169,18 @@ def _define_workflow(database: Database, at_work: set[str]) -> None:
 def _keep_up(upkeep: Upkeep, stop: threading.Event) -> None:
     """See to the upkeep until told to stop."""
     while not stop.is_set():
-        try:
-            upkeep.look_after()
-        except Exception:
-            logger.exception("The upkeep could not be done; trying again")
+        _try(upkeep.look_after)
         stop.wait(UPKEEP_EVERY_S)
+
+
+def _say_goodbye(upkeep: Upkeep) -> None:
     goodbye = threading.Thread(target=upkeep.say_goodbye, daemon=True)
     goodbye.start()
     goodbye.join(SAY_GOODBYE_WITHIN_S)  # a locked file must not hold up the end
+
+
+def _try(duty: Callable[[], None]) -> None:
+    try:
+        duty()
+    except Exception:
+        logger.exception("The upkeep could not be done; trying again")

@@ -18,6 +18,11 @@ LEARNERS: Mapping[str, Learner] = MappingProxyType(
 )
 """The learners of the paper, in its order."""
 
+DEFAULT_LEARNERS: tuple[str, ...] = tuple(
+    name for name, learner in LEARNERS.items() if learner.family == "paper" or name == "birlfr"
+)
+"""Who learns where nobody says who: the paper's four and Bayesian IRLFR."""
+
 
 def learn(
     learner: str | Learner,
@@ -57,6 +62,7 @@ def _show(
 
 
 __all__ = [
+    "DEFAULT_LEARNERS",
     "LEARNERS",
     "Family",
     "Frame",

@@ -1,6 +1,7 @@
 """Runs through the API, with the worker's own function called in this process: the queue has tests of its own."""
 
 import json
+import math
 
 import pytest
 from sqlalchemy import func, select
@@ -8,9 +9,11 @@ from sqlalchemy import func, select
 from app.db import Database
 from app.learning import steps, worker
 from app.models import Run, RunCheckpoint, RunEvent, RunResult
+from irl_core import DEFAULT_LEARNERS, LEARNERS
 from tests.factories import attempt, losing_path, make_demonstration, make_ranking, make_world, post_demonstration
 
 QUICK = {"iterations": 30}
+PAPER = ("meirl", "irlr", "irlf", "irlfr")
 
 
 @pytest.fixture
@@ -60,16 +63,30 @@ def test_a_run_goes_from_queued_to_done_with_every_result(client, played, databa
     assert asked.status_code == 202, asked.text
     run = asked.json()
     assert run["status"] == "queued"
-    assert run["learners"] == {name: {"outcome": None} for name in ("meirl", "irlr", "irlf", "irlfr")}
+    assert run["learners"] == {name: {"outcome": None} for name in DEFAULT_LEARNERS}
+    assert set(run["versions"]) == {"irlfr", "numba", "numpy", "python", "scipy"}
     worker.learn_now(database, run["id"])
     done = client.get(f"/api/v1/runs/{run['id']}").json()
     assert done["status"] == "done"
+    for name in PAPER:
+        assert done["learners"][name]["outcome"] == "iteration_limit"
+        assert done["learners"][name]["iterations"] == 30
     for result in done["learners"].values():
-        assert result["outcome"] == "iteration_limit"
-        assert result["iterations"] == 30
         assert [len(row) for row in result["reward"]] == [7] * 7
         assert len(result["policy"]) == 49
         assert all(sum(row) == pytest.approx(1) for row in result["policy"])
+
+
+def test_every_learner_there_is_ends_in_a_comparison_that_json_can_hold(client, played, database):
+    run_id = ask(client, played, learners=list(LEARNERS)).json()["id"]
+    worker.learn_now(database, run_id)
+    run = client.get(f"/api/v1/runs/{run_id}").json()
+    assert run["status"] == "done", run["reason"]
+    assert [run["learners"][name]["outcome"] is None for name in LEARNERS] == [False] * len(LEARNERS)
+    entries = client.get(f"/api/v1/runs/{run_id}/comparison").json()["entries"]
+    assert {entry["who"] for entry in entries} == {"human", *LEARNERS, "optimal"}
+    for _, kind, data in events(client, run_id):  # a browser's JSON.parse knows no NaN
+        assert kind != "frame" or all(map(math.isfinite, [data["gap"], data["log_likelihood"], *data["reward"]]))
 
 
 def test_the_comparison_has_the_human_every_learner_and_the_optimum(client, played, database):
@@ -79,7 +96,7 @@ def test_the_comparison_has_the_human_every_learner_and_the_optimum(client, play
     worker.learn_now(database, run_id)
     comparison = client.get(f"/api/v1/runs/{run_id}/comparison").json()
     entries = {entry["who"]: entry for entry in comparison["entries"]}
-    assert set(entries) == {"human", "meirl", "irlr", "irlf", "irlfr", "optimal"}
+    assert set(entries) == {"human", *DEFAULT_LEARNERS, "optimal"}
     totals = [one["total"] for one in client.get(f"/api/v1/worlds/{played['id']}/demonstrations").json()]
     assert entries["human"]["mean_return"] == pytest.approx(sum(totals) / 6, abs=1e-12)
     assert entries["optimal"]["place"] == 1
@@ -108,9 +125,9 @@ def test_events_are_numbered_and_end_with_done(client, played, database):
     assert [number for number, _, _ in found] == list(range(1, len(found) + 1))
     kinds = [kind for _, kind, _ in found]
     assert kinds[-1] == "done"
-    assert kinds.count("learner") == 4
+    assert kinds.count("learner") == len(DEFAULT_LEARNERS)
     assert kinds.count("done") == 1
-    for name in ("meirl", "irlr", "irlf", "irlfr"):
+    for name in PAPER:
         frames = [data for _, kind, data in found if kind == "frame" and data["learner"] == name]
         assert frames[0]["iteration"] == 0, "the first frame shows what it knows before it has learned"
         assert frames[-1]["iteration"] == 30, "the last frame always comes"
@@ -160,7 +177,7 @@ def test_a_run_taken_up_by_another_worker_ends_with_the_same_result(client, play
     """Every step once abandoned after it was stored, as if the worker had died before saying so."""
     straight, broken = (ask(client, played).json()["id"] for _ in range(2))
     worker.learn_now(database, straight)
-    for learner in ("meirl", "irlr", "irlf", "irlfr"):
+    for learner in DEFAULT_LEARNERS:
         finished = False
         while not finished:
             run = steps.begin(database, broken)  # a new process: nothing remembered but what is stored
@@ -171,7 +188,7 @@ def test_a_run_taken_up_by_another_worker_ends_with_the_same_result(client, play
     assert one == two
     with database.read() as session:
         results = session.scalar(select(func.count()).select_from(RunResult).where(RunResult.run_id == broken))
-        assert results == 4
+        assert results == len(DEFAULT_LEARNERS)
         assert session.scalar(select(func.count()).select_from(RunCheckpoint)) == 0, "checkpoints are cleared away"
 
 
