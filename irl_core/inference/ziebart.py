@@ -33,9 +33,9 @@ def infer_ziebart(mdp: Mdp, reward: Vector, *, horizon: int, starts: Vector) -> 
     log_z, log_z_before = log_weights(model, np.where(model.terminal, 0.0, reward), horizon=horizon)
     log_partition = mean_log(log_z, starts, within=f" within {horizon} steps")
     policy = action_policy(model, log_z_before)
-    came_from = model.followed(policy).transpose()
+    followed = model.followed(policy).transpose()
     here, visits = starts.copy(), starts.copy()
     for _ in range(horizon):
-        here = came_from @ here
+        here = np.asarray(followed @ here)
         visits += here
     return Inferred("ziebart", log_partition, policy, visits)

@@ -102,19 +102,25 @@ def enumerate_paths(mdp, reward, *, horizon):
     return log_partition, visits, policy
 
 
+def spectral_radius(mdp, reward):
+    """The largest eigenvalue of e^R W between states that are not terminal."""
+    inside = ~mdp.terminal
+    W = np.exp(reward)[:, None] * dense(mdp).sum(axis=1)
+    return max(abs(np.linalg.eigvals(W[np.ix_(inside, inside)])))
+
+
 def infinite_paths(mdp, reward):
-    """The same for paths of any length, by one dense solve (I − e^R W) Z = e^R W e^R(terminal); and ρ."""
+    """The same for paths of any length, by one dense solve (I − e^R W) Z = e^R W e^R(terminal)."""
     T, inside = dense(mdp), ~mdp.terminal
     W = np.exp(reward)[:, None] * T.sum(axis=1)
     M = W[np.ix_(inside, inside)]
-    radius = max(abs(np.linalg.eigvals(M)))
     Z = np.exp(reward)
     Z[inside] = np.linalg.solve(np.eye(inside.sum()) - M, W[np.ix_(inside, ~inside)] @ Z[~inside])
     law = np.where(inside[:, None], W * Z[None, :] / Z[:, None], 0.0)
     visits = np.linalg.solve(np.eye(mdp.n_states) - law.T, mdp.starts)
     policy = T @ Z
     policy = np.where(inside[:, None], policy / np.where(inside, policy.sum(axis=1), 1.0)[:, None], 1 / mdp.n_actions)
-    return float(mdp.starts @ np.log(Z)), visits, policy, radius
+    return float(mdp.starts @ np.log(Z)), visits, policy
 
 
 def causal(mdp, reward, *, horizon, discount):
