@@ -8,6 +8,7 @@ import numpy as np
 from irl_core.arrays import Matrix, Policy, Vector, read_only
 from irl_core.errors import InvalidReward
 
+StepPolicies: TypeAlias = np.ndarray[tuple[int, int, int], np.dtype[np.float64]]
 InferenceKind: TypeAlias = Literal["path", "path_infinite", "causal", "ziebart"]
 INFERENCE_KINDS: Final[tuple[InferenceKind, ...]] = get_args(InferenceKind)
 
@@ -18,13 +19,15 @@ class Inferred:
 
     `log_partition` is Σ_s ρ_0(s) log Z(s) over the starts (for `causal`: Σ ρ_0 V). `policy`, shape (S, A), is the
     stationary one that is drawn and executed. `visitation`, shape (S,), is μ^π, the expected number of visits (for
-    `causal`: discounted). For every kind but `ziebart` it is the gradient of the log partition in R.
+    `causal`: discounted). For every kind but `ziebart` it is the gradient of the log partition in R. `step_policies`,
+    shape (N, S, A), is the policy with n = 1, …, N steps to go, where it was asked for.
     """
 
     inference: InferenceKind
     log_partition: float
     policy: Policy
     visitation: Vector
+    step_policies: StepPolicies | None = None
 
     def __post_init__(self) -> None:
         read_only(self.policy)

@@ -38,10 +38,10 @@ def infer_path_in_logs(
     every = math.isqrt(horizon - 1) + 1
     kept = _backward(mdp, ahead, reward, horizon=horizon, every=every)
     policies = np.empty((horizon, mdp.n_states, grid.N_ACTIONS)) if step_policies else None
-    here = starts.copy()
-    visits = starts.copy()
-    policy: Policy = np.empty(0)
-    log_z: Vector = np.empty(0)
+    here: Vector = starts.copy()
+    visits: Vector = starts.copy()
+    policy: Policy = np.empty((0, 0))
+    log_z = starts
     for block in range(len(kept) - 1, -1, -1):
         first, last = block * every, min((block + 1) * every, horizon)
         rows = _rows(mdp, ahead, reward, kept[block], n_steps=last - first)
@@ -53,7 +53,7 @@ def infer_path_in_logs(
                 policy = acts if n == horizon else policy
                 if policies is not None:
                     policies[n - 1] = acts
-            here = np.bincount(ahead.reshape(-1), (law * here).reshape(-1), mdp.n_states)
+            here = np.bincount(ahead.reshape(-1), (law * here).reshape(-1), mdp.n_states).astype(np.float64, copy=False)
             visits += here
     return LogPath(log_z, policy, visits, policies)
 
@@ -82,9 +82,8 @@ def _backward(mdp: GridMdp, ahead: np.ndarray, reward: Vector, *, horizon: int, 
     log_z = np.full(mdp.n_states, -np.inf)
     log_z[mdp.terminal] = reward[mdp.terminal]
     kept = [log_z]
-    for first in range(every, horizon, every):
+    for _ in range(every, horizon, every):
         kept.append(_rows(mdp, ahead, reward, kept[-1], n_steps=every)[-1])
-        assert first == every * (len(kept) - 1)
     return kept
 
 
