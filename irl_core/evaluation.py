@@ -4,7 +4,8 @@ The return is the sum of the rewards of the squares reached within N steps, the 
 
     V_n(s) = Σ_a π(a | s) Σ_d T(d | a) (r(s′_d) + V_{n−1}(s′_d)),   V_0 = 0,   V(goal) = 0.
 
-A policy is a matrix (S, 4), the same at every step, or a HardPlan, which looks at the steps to go.
+A policy is a matrix (S, 4), the same at every step, or a HardPlan, which looks at the steps to go. In a SparseMdp the
+returns are what the model itself pays, and `sparse_evaluation.py` does the work.
 """
 
 from collections.abc import Iterator
@@ -13,9 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from irl_core import grid
+from irl_core import grid, sparse_evaluation
 from irl_core.arrays import BoolVector, IntVector, Matrix, Policy, Vector
-from irl_core.mdp import GridMdp, as_mdp
+from irl_core.mdp import GridMdp, SparseMdp, as_mdp
 from irl_core.planning import HardPlan, direction_law, hard_plan
 from irl_core.types import World
 
@@ -33,8 +34,10 @@ class Rollout:
         return {"states": list(self.states), "total": self.total, "reached_goal": self.reached_goal}
 
 
-def expected_return(world: World, policy: Policy | HardPlan, *, horizon: int | None = None) -> float:
+def expected_return(world: World | SparseMdp, policy: Policy | HardPlan, *, horizon: int | None = None) -> float:
     """V_N(start), exact; N is the world's horizon unless said otherwise (and a plan's own horizon at most)."""
+    if isinstance(world, SparseMdp):
+        return sparse_evaluation.expected_return(world, policy, horizon=_n_steps(world, policy, horizon))
     value: Vector = np.zeros(world.n_states)
     goals = list(world.goals)
     for law in _laws_last_step_first(world, policy, _n_steps(world, policy, horizon)):
@@ -44,7 +47,7 @@ def expected_return(world: World, policy: Policy | HardPlan, *, horizon: int | N
 
 
 def expected_visits(
-    world: World | GridMdp,
+    world: World | GridMdp | SparseMdp,
     policy: Policy | HardPlan,
     *,
     horizon: int | None = None,
@@ -55,11 +58,15 @@ def expected_visits(
 
     `starts`, shape (S,), is the model's own unless given; a visit at step t counts γ^t with a discount γ.
     """
+    begun: Vector = as_mdp(world).starts if starts is None else starts
+    n_steps = _n_steps(world, policy, horizon)
+    if isinstance(world, SparseMdp):
+        return sparse_evaluation.expected_visits(world, policy, horizon=n_steps, starts=begun, discount=discount)
     ahead = world.next_states.reshape(-1)
     not_goal = ~grid.mask(world.n_states, world.goals)
-    here: Vector = (as_mdp(world).starts if starts is None else starts).copy()
+    here: Vector = begun.copy()
     visits: Vector = here.copy()
-    for law in _laws_first_step_first(world, policy, _n_steps(world, policy, horizon)):
+    for law in _laws_first_step_first(world, policy, n_steps):
         moved = law * (here * not_goal * discount)[:, None]
         here = np.bincount(ahead, moved.reshape(-1), world.n_states).astype(np.float64, copy=False)
         visits += here
@@ -67,7 +74,7 @@ def expected_visits(
 
 
 def rollouts(
-    world: World,
+    world: World | SparseMdp,
     policy: Policy | HardPlan,
     n_episodes: int,
     rng: np.random.Generator,
@@ -76,6 +83,8 @@ def rollouts(
 ) -> list[Rollout]:
     """Play the policy from the start, all episodes side by side. Each step draws one number for each episode."""
     n_steps = _n_steps(world, policy, horizon)
+    if isinstance(world, SparseMdp):
+        return _sparse_rollouts(world, policy, n_episodes, rng, horizon=n_steps)
     is_goal = grid.mask(world.n_states, world.goals)
     states = np.full((n_steps + 1, n_episodes), world.start, dtype=np.int64)
     for step, law in enumerate(_laws_first_step_first(world, policy, n_steps), start=1):
@@ -89,19 +98,36 @@ def rollouts(
     return [_rollout(world, path, is_goal[path]) for path in states.T]
 
 
-def optimum(world: World) -> float:
+def optimum(world: World | SparseMdp) -> float:
     """The largest expected return within the world's horizon, V_N(start) of the best plan."""
-    return float(optimal_plan(world).values[-1, world.start])
+    values = optimal_plan(world).values[-1]
+    if isinstance(world, SparseMdp):
+        return float((world.starts * values).sum())
+    return float(values[world.start])
 
 
-def optimal_plan(world: World) -> HardPlan:
+def optimal_plan(world: World | SparseMdp) -> HardPlan:
     """The plan that earns the optimum; it need not arrive where arriving does not pay."""
+    if isinstance(world, SparseMdp):
+        return sparse_evaluation.best_plan(world)
     return hard_plan(world, world.reward)
 
 
-def greedy_plan(world: World, reward: Vector) -> HardPlan:
-    """The best path to a goal under a learned reward, to be measured on the true one."""
+def greedy_plan(world: World | SparseMdp, reward: Vector) -> HardPlan:
+    """The best path to a goal (a terminal state) under a learned reward, to be measured on the true one."""
+    if isinstance(world, SparseMdp):
+        return sparse_evaluation.best_plan(world, reward, must_arrive=True)
     return hard_plan(world, reward, must_reach_goal=True)
+
+
+def _sparse_rollouts(
+    mdp: SparseMdp, policy: Policy | HardPlan, n_episodes: int, rng: np.random.Generator, *, horizon: int
+) -> list[Rollout]:
+    states, totals, n_steps = sparse_evaluation.play(mdp, policy, n_episodes, rng, horizon=horizon)
+    return [
+        Rollout(tuple(path[: last + 1].tolist()), float(total), bool(mdp.terminal[path[last]]))
+        for path, total, last in zip(states.T, totals, n_steps, strict=True)
+    ]
 
 
 def _rollout(world: World, path: IntVector, arrived: BoolVector) -> Rollout:
@@ -111,7 +137,7 @@ def _rollout(world: World, path: IntVector, arrived: BoolVector) -> Rollout:
     return Rollout(tuple(states.tolist()), float(world.reward[states[1:]].sum()), reached_goal)
 
 
-def _n_steps(world: World | GridMdp, policy: Policy | HardPlan, horizon: int | None) -> int:
+def _n_steps(world: World | GridMdp | SparseMdp, policy: Policy | HardPlan, horizon: int | None) -> int:
     n_steps = world.horizon if horizon is None else horizon
     return min(n_steps, policy.horizon) if isinstance(policy, HardPlan) else n_steps
 

@@ -75,10 +75,9 @@ def test_by_hand_one_choice_between_an_end_and_staying():
 def test_a_grid_is_as_good_as_its_transitions_written_out():
     world = generate_world(4, rows=4, cols=5, slip=0.2, walls=(7,))
     reward = some_reward(world)
-    settled = {"horizon": 20, "discount": 0.95, "starts": world.mdp.starts}
     on_grid, written_out = (
-        infer_causal(world.mdp, reward, **settled),
-        infer_causal(world.mdp.to_sparse(), reward, **settled),
+        infer_causal(mdp, reward, horizon=20, discount=0.95, starts=world.mdp.starts)
+        for mdp in (world.mdp, world.mdp.to_sparse())
     )
     assert on_grid.log_partition == written_out.log_partition
     np.testing.assert_array_equal(on_grid.visitation, written_out.visitation)
@@ -151,7 +150,7 @@ def test_other_names_for_the_states_change_nothing(seed):
     order = rng.permutation(mdp.n_states)
     T = mdp.transitions.toarray().reshape(mdp.n_states, mdp.n_actions, mdp.n_states)
     renamed = sparse_from_dense(
-        T[np.ix_(order, range(mdp.n_actions), order)], mdp.terminal[order], start=mdp.starts[order]
+        T[np.ix_(order, np.arange(mdp.n_actions), order)], mdp.terminal[order], start=mdp.starts[order]
     )
     reward = some_reward(mdp, seed)
     here = infer_causal(mdp, reward, horizon=6, discount=0.9, starts=mdp.starts)
