@@ -22,6 +22,7 @@ cli = typer.Typer(
 )
 
 BAD_INPUT = 2
+STOPPED = 130  # what a shell reports of a program that Ctrl-C ended
 
 
 def main() -> None:
@@ -111,6 +112,58 @@ def learn(
 
 
 @cli.command()
+def experiment(
+    *,
+    worlds: Annotated[int, typer.Option(help="Worlds for each kind of demonstrator.", min=1, max=1_000_000)] = 20,
+    demonstrators: Annotated[str | None, typer.Option(help="Names, separated by commas; all if left out.")] = None,
+    learners: Annotated[str | None, typer.Option(help="Names, separated by commas; all if left out.")] = None,
+    seed: Annotated[int, typer.Option(help="Decides every world, attempt and episode.")] = 0,
+    rows: Annotated[int, typer.Option(help="Height of the worlds.")] = 7,
+    cols: Annotated[int, typer.Option(help="Width of the worlds.")] = 7,
+    slip: Annotated[float, typer.Option(help="The chance that a step goes another way.")] = 0.0,
+    successes: Annotated[int, typer.Option(help="Successes each demonstrator gives.")] = 3,
+    failures: Annotated[int, typer.Option(help="Failures each demonstrator gives.")] = 3,
+    ranking_noise: Annotated[float, typer.Option(help="Mistakes in the order, in points of reward.")] = 0.0,
+    episodes: Annotated[int, typer.Option(help="Episodes each learned policy plays.")] = 50,
+    changed: Annotated[
+        list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Change a setting; may be repeated.")
+    ] = None,
+    processes: Annotated[int | None, typer.Option(help="One for each core if left out.", min=1, max=1024)] = None,
+    out: Annotated[Path, typer.Option(help="The folder for the tables, the figure and the outcomes.")] = Path(
+        "experiment"
+    ),
+) -> None:
+    """Repeat the paper's experiment with simulated demonstrators, on as many worlds as wanted."""
+    from app import experiment_command  # noqa: PLC0415
+    from irl_core import LEARNERS, IrlError  # noqa: PLC0415
+    from irl_core import Settings as LearnerSettings  # noqa: PLC0415
+    from irl_core.demonstrators import DEMONSTRATORS  # noqa: PLC0415
+    from irl_core.experiment import ExperimentSpec  # noqa: PLC0415
+
+    try:
+        spec = ExperimentSpec(
+            learners=_names(learners) or tuple(LEARNERS),
+            seed=seed,
+            rows=rows,
+            cols=cols,
+            slip=slip,
+            n_successes=successes,
+            n_failures=failures,
+            ranking_noise=ranking_noise,
+            n_episodes=episodes,
+            settings=LearnerSettings.from_json(_settings_of(changed or [])),
+        )
+        kinds = _names(demonstrators) or tuple(DEMONSTRATORS)
+        n_processes = min(processes or os.cpu_count() or 1, worlds * len(kinds))
+        experiment_command.run(experiment_command.Plan(spec, kinds, worlds, n_processes, out))
+    except (IrlError, OSError) as error:
+        _refuse(str(error))
+    except KeyboardInterrupt:
+        typer.echo("Stopped before the end; nothing was written.", err=True)
+        raise typer.Exit(STOPPED) from None
+
+
+@cli.command()
 def doctor() -> None:
     """Check the environment, the database, the browser's packages and the worker, and say what to do."""
     from app.doctor import checks  # noqa: PLC0415
@@ -175,6 +228,11 @@ def _names_of(learners: str | None) -> list[str]:
     if unknown:
         _refuse(f"There is no learner {unknown[0]!r}; there are {', '.join(LEARNERS)}.")
     return names
+
+
+def _names(listed: str | None) -> tuple[str, ...]:
+    """Names separated by commas, each once."""
+    return tuple(dict.fromkeys(name.strip() for name in (listed or "").split(",") if name.strip()))
 
 
 def _settings_of(changed: list[str]) -> dict[str, Any]:

@@ -39,9 +39,10 @@ def draw_figure(summaries: Sequence[KindSummary], path: Path) -> None:
             panel.set_axis_off()
         for summary, panel in zip(summaries, panels.flat, strict=False):
             _draw_panel(panel, summary)
+        for panel in panels[-1]:
+            panel.set_xlabel("share of the optimum")
         handles, labels = panels[0, 0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=len(labels), frameon=False)
-        figure.supxlabel("share of the optimal expected return", fontsize=9)
         figure.savefig(path, metadata={"Date": None} if path.suffix == ".svg" else None)
 
 
@@ -59,6 +60,7 @@ def _draw_panel(panel: "Axes", summary: KindSummary) -> None:
     panel.set_xlim(_LEFT, 1.05)
     panel.grid(axis="x", color="0.9")
     panel.set_axisbelow(True)
+    panel.spines[["top", "right"]].set_visible(False)
     panel.set_title(f"{title_of(summary.demonstrator)} ({summary.n_worlds} worlds)", loc="left")
 
 
