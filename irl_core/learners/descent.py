@@ -20,12 +20,24 @@ iterations end when it is below the tolerance, *before* the update, so that the 
 or at the limit; or when a weight leaves ±10⁶, beyond which log Z keeps too few digits, or (paths of any length) when
 log Z becomes infinite.
 
-*A fixed point of IRLF is one of MEIRL*: w_D moves until φᵀμ^π = μ̃ᴰ whatever w_F is, so failures change the way, not the
-end. Their gain at a given number of iterations is faster descent; and as 1 / λ times the curvature of log Z grows past
-1, positive feedback that oscillates (IRLF, IRLFR at small λ_min).
+*What failures do.* While λ is constant, w_F changes by (φᵀμ^π_t − φᵀμ^π_{t−1}) / λ: the counts μ̃ᶠ cancel. So with w =
+w_D + w_F
 
-A state holds w_D, w_F, shape (K,), λ, and what an optimiser keeps. With `causal` inference the log-likelihood is f's
-own, −f at ℓ₂ = 0, which is that of the actions where moves are certain; `ziebart` has no likelihood that it climbs.
+    w_{t+1} = w_t − α (φᵀμ^π_t − μ̃ᴰ) + (1/λ) (φᵀμ^π_t − φᵀμ^π_{t−1})  ≈  w_t − α ∇f(w_t) + (H/λ) (w_t − w_{t−1}),
+
+H = φᵀ Cov φ the curvature of log Z: MEIRL's descent with heavy-ball momentum (Polyak 1964), H/λ its factor. What the
+failures were decides where it sets out (w_F in the first iterations) and nothing else. Momentum speeds the descent
+while its factor is below 1 and never dies out from there on: λ has to stay above σ, the largest eigenvalue of H, which
+differs between worlds and along a run. The paper's λ_min knows nothing of σ; with `lambda_rule="curvature"` the λ of
+line 13 is max(λ, σ), where one step of the power method an iteration, v ← Hv / ‖Hv‖, follows σ, Hv by a central
+difference of φᵀμ^π.
+
+*A fixed point of IRLF is one of MEIRL*: w_D moves until φᵀμ^π = μ̃ᴰ whatever w_F is, so failures change the way, not
+the end. Their gain at a given number of iterations is faster descent; beyond the critical λ it oscillates.
+
+A state holds w_D, w_F, shape (K,), λ, and what an optimiser or the power method keeps. With `causal` inference the
+log-likelihood is f's own, −f at ℓ₂ = 0, which is that of the actions where moves are certain; `ziebart` has no
+likelihood that it climbs.
 """
 
 import math
@@ -48,6 +60,7 @@ from irl_core.weights import feature_counts, start_counts
 WEIGHT_LIMIT: Final = 1e6
 WIDE_GAP: Final = 0.5
 """In visits of one square: from here on the sentence warns."""
+_DIFFERENCE: Final = 1e-4
 _BELOW_DIVERGENCE: Final = 0.25
 """Paths of any length start from the constant reward −log A − this, where their sum is finite."""
 
@@ -239,14 +252,34 @@ def _moved(problem: LearningProblem, state: LearningState, aims: Aims, moment: M
 
 
 def _descended(problem: LearningProblem, state: LearningState, aims: Aims, moment: Moment) -> dict[str, Vector | float]:
-    settings, lam, w_failure = problem.settings, state.number("lambda"), state.vector("w_failure")
-    if aims.failures is not None and moment.failure_counts is not None:
-        w_failure = (moment.failure_counts - aims.failures) / lam
-    return {
+    settings, lam = problem.settings, state.number("lambda")
+    values: dict[str, Vector | float] = {
         "w_success": state.vector("w_success") - settings.learning_rate * moment.residual,
-        "w_failure": w_failure,
+        "w_failure": state.vector("w_failure"),
         "lambda": max(settings.lambda_decay * lam, settings.lambda_min),
     }
+    if aims.failures is None or moment.failure_counts is None:
+        return values
+    if settings.lambda_rule == "curvature":
+        values["curvature_vector"], curvature = _power_step(problem, state, aims)
+        lam = max(lam, curvature)
+    values["w_failure"] = (moment.failure_counts - aims.failures) / lam
+    return values
+
+
+def _power_step(problem: LearningProblem, state: LearningState, aims: Aims) -> tuple[Vector, float]:
+    """One step of the power method on H: the next v, of length 1, and ‖Hv‖."""
+    weights, starts = _weights(state), aims.starts if aims.failure_starts is None else aims.failure_starts
+    v = state.values.get("curvature_vector")
+    if not isinstance(v, np.ndarray):
+        v = np.full(len(weights), len(weights) ** -0.5)
+    there, back = (
+        problem.features.counts(_infer(problem, weights + h * v, starts).visitation)
+        for h in (_DIFFERENCE, -_DIFFERENCE)
+    )
+    h_times_v: Vector = (there - back) / (2 * _DIFFERENCE)
+    length = float(np.linalg.norm(h_times_v))
+    return (h_times_v / length if length > 0.0 else v), length
 
 
 def _weights(state: LearningState) -> Vector:

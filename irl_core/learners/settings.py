@@ -77,6 +77,13 @@ class Settings:
         maximum=1e9,
         help="λ falls no lower. Small values let the failures count for much, but below about 2 learning oscillates.",
     )
+    lambda_rule: Literal["schedule", "curvature"] = _choice(
+        "schedule",
+        symbol="λ",
+        choices=("schedule", "curvature"),
+        help="Follow the paper's schedule; or besides keep λ above the curvature, where failures cannot make learning"
+        " oscillate, whatever λ_min.",
+    )
     initial_weights: Literal["zero", "uniform"] = _choice(
         "zero",
         symbol="w₀",

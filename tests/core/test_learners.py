@@ -209,6 +209,41 @@ def test_a_reward_that_matches_the_successes_is_a_fixed_point_of_irlf_whatever_t
     np.testing.assert_allclose(later.vector("w_success") + later.vector("w_failure"), reward, atol=1e-10)
 
 
+def test_while_lambda_is_constant_failures_are_momentum_and_their_counts_cancel():
+    """w_{t+1} = w_t − α (μ_t − μ̃ᴰ) + (μ_t − μ_{t−1}) / λ, in which no failure is left."""
+    problem = small_problem(lambda_start=12.0, lambda_min=12.0, learning_rate=0.2)
+    learner, wanted = LEARNERS["irlfr"], descent.aims_of(problem, uses_ranking=True, uses_failures=False).successes
+    state, weights, visits = learner.start(problem), [np.zeros(9)], []
+    for _ in range(6):
+        visits.append(visitation(problem.world, soft_plan(problem.world, weights[-1])))
+        state = learner.advance(problem, state, iterations=1)
+        weights.append(state.vector("w_success") + state.vector("w_failure"))
+    for t in range(1, 6):
+        step = -0.2 * (visits[t] - wanted) + (visits[t] - visits[t - 1]) / 12.0
+        np.testing.assert_allclose(weights[t + 1], weights[t] + step, atol=1e-12)
+
+
+def test_the_rule_of_curvature_follows_the_largest_eigenvalue_and_keeps_irlf_from_exploding():
+    explosive = {"lambda_start": 10.0, "lambda_min": 0.3, "iterations": 300}
+    wild = learn("irlf", small_problem(**explosive))
+    tame = learn("irlf", small_problem(**explosive, lambda_rule="curvature"))
+    assert wild.gap > 0.5
+    assert tame.gap < 0.1
+    problem = small_problem(lambda_rule="curvature", iterations=300)
+    learner = LEARNERS["irlf"]
+    state = learner.advance(problem, learner.start(problem), iterations=200)
+    aims = descent.aims_of(problem, uses_ranking=False, uses_failures=True)
+    _, curvature = descent._power_step(problem, state, aims)
+    reward, h = state.vector("w_success") + state.vector("w_failure"), 1e-5
+    hessian = [
+        visitation(problem.world, soft_plan(problem.world, reward + h * e))
+        - visitation(problem.world, soft_plan(problem.world, reward - h * e))
+        for e in np.eye(9)
+    ]
+    largest = np.linalg.eigvalsh(np.array(hessian) / (2 * h))[-1]
+    assert curvature == pytest.approx(largest, rel=0.02)
+
+
 @pytest.mark.parametrize(("name", "twin"), [("irlf", "meirl"), ("irlfr", "irlr")])
 def test_with_enough_iterations_failures_change_nothing_both_match_the_successes(name, twin):
     """λ is kept above the curvature; squares that no success visits make the last digits slow (their reward → −∞)."""
@@ -434,6 +469,7 @@ WRONG_SETTINGS: list[tuple[str, list[object]]] = [
     ("lambda_min", [0, 11, float("nan")]),
     ("initial_weights", ["random", None, 0, ["zero"]]),
     ("unfinished_failures", ["", True]),
+    ("lambda_rule", ["none", 1]),
     ("inference", ["paths", None]),
     ("discount", [0, 1.1, float("nan")]),
     ("features", ["pixels", 3]),

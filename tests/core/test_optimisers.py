@@ -66,7 +66,7 @@ def test_a_step_never_leaves_the_finite_region():
 def test_newton_lbfgs_and_the_descent_come_to_the_same_reward(name):
     """With a ridge the minimum is unique."""
     rewards = [
-        learn(name, small_problem(optimiser=optimiser, l2=0.05, tolerance=1e-9, learning_rate=0.2, iterations=20_000))
+        learn(name, small_problem(optimiser=optimiser, l2=0.1, tolerance=1e-7, learning_rate=0.3, iterations=3000))
         for optimiser in ("newton", "lbfgs", "descent")
     ]
     assert {one.outcome for one in rewards} == {Outcome.CONVERGED}
