@@ -4,8 +4,8 @@ The twin of `evaluation.py`, which leads here. A step from s by action a pays p(
 
     V_n(s) = Σ_a π(a | s) (p(s, a) + Σ_{s′} T(s′ | s, a) V_{n−1}(s′)),   V_0 = 0,   V(terminal) = 0;
 
-the best plan has max_a in place of Σ_a π. p is what the model itself pays; for a learned reward R of the states that are
-reached it is Σ_{s′} T(s′ | s, a) R(s′).
+the best plan has max_a in place of Σ_a π. p is what the model itself pays, or for a learned reward R of the states that
+are reached Σ_{s′} T(s′ | s, a) R(s′).
 
 A policy is a matrix (S, A), the same at every step, or a HardPlan, which looks at the steps to go.
 """
@@ -115,6 +115,5 @@ def _running_sums(mdp: SparseMdp) -> Vector:
     Where a sum reaches 1 but for rounding it is 1 exactly, so that no draw falls behind the last possible entry.
     """
     cumulative = np.concatenate([[0.0], mdp.probabilities.cumsum()])
-    within = cumulative[1:] - cumulative[mdp.indptr[:-1]][mdp.rows]
-    sums: Vector = mdp.rows + np.where(within > 1.0 - 1e-9, 1.0, within)
-    return sums
+    within: Vector = cumulative[1:] - cumulative[mdp.indptr[:-1]][mdp.rows]
+    return np.asarray(mdp.rows + np.where(within > 1.0 - 1e-9, 1.0, within), dtype=np.float64)

@@ -41,7 +41,7 @@ def from_gymnasium(env: HasTable, *, start: int | Vector | None = None, horizon:
     """The environment's model. Gymnasium itself is not needed: anything with P will do. Raises InvalidModel.
 
     `start`, a state or a distribution of shape (S,), is the environment's own unless given (state 0 where it has none);
-    `horizon` is its `max_episode_steps`, or else SparseMdp's rule.
+    `horizon` is its `max_episode_steps` (or an attribute `horizon`), or else SparseMdp's rule.
     """
     bare = getattr(env, "unwrapped", env)
     table = getattr(bare, "P", None)
@@ -62,7 +62,7 @@ def from_gymnasium(env: HasTable, *, start: int | Vector | None = None, horizon:
         pays=entries.pays[kept],
         terminal=terminal,
         start=began,
-        horizon=_horizon(env) if horizon is None else horizon,
+        horizon=_horizon(env, bare) if horizon is None else horizon,
     )
     _check_ends(model, entries, kept)
     return model
@@ -119,6 +119,6 @@ def _start(bare: Any) -> int | Vector:  # noqa: ANN401 - outside data
     return starts
 
 
-def _horizon(env: object) -> int:
-    steps = getattr(getattr(env, "spec", None), "max_episode_steps", None)
+def _horizon(env: object, bare: object) -> int:
+    steps = getattr(getattr(env, "spec", None), "max_episode_steps", None) or getattr(bare, "horizon", None)
     return 0 if steps is None else int(steps)
