@@ -6,17 +6,26 @@ from types import MappingProxyType
 from irl_core.checks import shown
 from irl_core.errors import InvalidSettings
 from irl_core.learners.base import Family, Frame, Learner, LearningResult, LearningState, Outcome, Posterior
+from irl_core.learners.baselines import BehaviouralCloning, RandomPlay, ScoreIrl, Trex
 from irl_core.learners.irlf import Irlf
 from irl_core.learners.irlfr import Irlfr
 from irl_core.learners.irlr import Irlr
 from irl_core.learners.meirl import Meirl
+from irl_core.learners.model_free import ModelFree
 from irl_core.learners.problem import LearningProblem
 from irl_core.learners.settings import Settings
 
 LEARNERS: Mapping[str, Learner] = MappingProxyType(
-    {learner.name: learner for learner in (Meirl(), Irlr(), Irlf(), Irlfr())}
+    {
+        learner.name: learner
+        for learner in (
+            *(Meirl(), Irlr(), Irlf(), Irlfr()),
+            ModelFree(),
+            *(Trex(), BehaviouralCloning(), ScoreIrl(), RandomPlay()),
+        )
+    }
 )
-"""The learners of the paper, in its order."""
+"""The learners of the paper, in its order; ours; and those of the neighbourhood."""
 
 DEFAULT_LEARNERS: tuple[str, ...] = tuple(
     name for name, learner in LEARNERS.items() if learner.family == "paper" or name == "birlfr"

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from irl_core import (
-    LEARNERS,
     World,
     compare,
     expected_return,
@@ -18,6 +17,8 @@ from irl_core import (
 from irl_core.comparison import places
 from tests.core.examples import DOWN, RIGHT, UP, make_problem, make_world
 
+PAPER = ("meirl", "irlr", "irlf", "irlfr")
+
 
 @pytest.fixture(scope="module")
 def problem():
@@ -26,7 +27,7 @@ def problem():
 
 @pytest.fixture(scope="module")
 def results(problem):
-    return [learn(name, problem) for name in LEARNERS]
+    return [learn(name, problem) for name in PAPER]
 
 
 @pytest.fixture(scope="module")
@@ -39,7 +40,7 @@ def entry(comparison, who):
 
 
 def test_everybody_is_there_sorted_by_place(comparison):
-    assert {one.who for one in comparison.entries} == {"human", *LEARNERS, "optimal"}
+    assert {one.who for one in comparison.entries} == {"human", *PAPER, "optimal"}
     assert [one.place for one in comparison.entries] == sorted(one.place for one in comparison.entries)
     assert comparison.entries[0].who == "optimal"
     scores = [one.score for one in comparison.entries]
