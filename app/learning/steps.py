@@ -10,6 +10,7 @@ Each step first makes sure that the run is still wanted. A worker that dies lose
 the checkpoint, whose numbers are stored exactly, and goes on to the same result, bit for bit.
 """
 
+import math
 import time
 from dataclasses import dataclass
 
@@ -23,10 +24,12 @@ from app.kit import clock
 from app.learning import events, queries
 from app.learning.convert import to_problem
 from app.models import Run, RunCheckpoint, RunResult
-from irl_core import LEARNERS, Demonstration, Frame, LearningProblem, LearningResult, LearningState, compare
+from irl_core import LEARNERS, Demonstration, Frame, Learner, LearningProblem, LearningResult, LearningState, compare
 
 FRAME_EVERY_S = 0.08
 """How long a learner works between two frames: smooth to the eye, and how soon a cancellation is noticed."""
+FRAME_EVERY_SHARE = 7 / 6
+"""A frame whenever a learner has gone this much further, however fast it is: what changes most changes first."""
 FRAME_S_PER_STATE = 1e-4
 """Large worlds make large frames: 10,000 squares give one each second."""
 N_EPISODES = 50
@@ -94,11 +97,7 @@ def advance(database: Database, run: LoadedRun, name: str) -> bool:
         state = learner.start(run.problem)  # and its first frame is of what it knows before it has learned anything
     else:
         state = LearningState.from_json(checkpoint.state)
-        n_states = run.problem.world.n_states
-        iterations_at_once = 1 if n_states >= LARGE_WORLD else 5
-        until = time.monotonic() + max(FRAME_EVERY_S, FRAME_S_PER_STATE * n_states)
-        while state.outcome is None and time.monotonic() < until:
-            state = learner.advance(run.problem, state, iterations=iterations_at_once)
+        state = _gone_on(learner, run.problem, state)
     frame = learner.frame(run.problem, state)
     if state.outcome is None:
         database.write(lambda session: _store_progress(session, run.id, name, state, frame))
@@ -106,6 +105,21 @@ def advance(database: Database, run: LoadedRun, name: str) -> bool:
     result = learner.result(run.problem, state)
     database.write(lambda session: _store_result(session, run.id, name, result, frame))
     return True
+
+
+def _gone_on(learner: Learner, problem: LearningProblem, state: LearningState) -> LearningState:
+    """The state at which the next frame is due, if learning does not end before."""
+    n_states = problem.world.n_states
+    until = time.monotonic() + max(FRAME_EVERY_S, FRAME_S_PER_STATE * n_states)
+    if n_states >= LARGE_WORLD:
+        at_once, last = 1, math.inf
+    else:
+        at_once, last = 5, FRAME_EVERY_SHARE * state.iteration
+    while state.outcome is None and time.monotonic() < until:
+        state = learner.advance(problem, state, iterations=at_once)
+        if state.iteration >= last:
+            break
+    return state
 
 
 def finish(database: Database, run: LoadedRun) -> None:

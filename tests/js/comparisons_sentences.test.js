@@ -1,7 +1,13 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import { reproduceCommand } from "#js/comparisons/reproduce.js";
-import { backgroundSentence, onStage, resultSentence } from "#js/comparisons/sentences.js";
+import {
+  backgroundSentence,
+  onStage,
+  posteriorSentences,
+  resultSentence,
+  softSentence,
+} from "#js/comparisons/sentences.js";
 
 const entry = (who, title, mean_return, place, standard_error = 0.4) => ({
   who,
@@ -80,4 +86,40 @@ test("the command names seed, learners and every setting", () => {
     reproduceCommand(run),
     "irlfr learn irlfr-7123f95a.jsonl --seed 12 --learners meirl,irlr --set learning_rate=0.2 --set initial_weights=zero",
   );
+});
+
+const SOFT = [
+  [0.7, 0.1, 0.1, 0.1],
+  [0.25, 0.25, 0.25, 0.25],
+];
+const PLAN = [
+  [0, 1, 0, 0],
+  [0.25, 0.25, 0.25, 0.25],
+];
+const RANDOM = [SOFT[1], SOFT[1]];
+
+test("who walks softly and who plans is seen from the policies", () => {
+  const entries = [entry("trex", "T-REX", 5, 2), entry("meirl", "MEIRL", 3, 3), entry("random", "Random", -9, 4)];
+  const results = { trex: { policy: PLAN }, meirl: { policy: SOFT }, random: { policy: RANDOM } };
+  assert.equal(
+    softSentence([optimum(7), ...entries, you(1)], results),
+    "MEIRL walks softly: likelier steps more often, none always. T-REX plans, and always takes the step it thinks best.",
+  );
+  assert.equal(
+    softSentence([...entries, entry("birlfr", "Bayesian IRLFR", 6, 1)], { ...results, birlfr: { policy: PLAN } }),
+    "MEIRL walks softly: likelier steps more often, none always. " +
+      "Bayesian IRLFR and T-REX plan, and always take the step they think best.",
+  );
+});
+
+test("what a posterior expects is told in the world's own units", () => {
+  const world = { rewards: [[-1, 14]], goal: 1 };
+  const posterior = { level: 0.9, n_draws: 250, return_low: 0.25, return_high: 0.5 };
+  const results = { birlfr: { reward: [[-0.1, 1]], posterior }, meirl: { reward: [[0, 1]], posterior: null } };
+  const entries = [entry("birlfr", "Bayesian IRLFR", 6, 1), entry("meirl", "MEIRL", 3, 2), you(1)];
+  assert.deepEqual(posteriorSentences(entries, results, world), [
+    "Bayesian IRLFR itself expects its plan to earn 3.5 to 7.0 (90 % of its 250 draws).",
+  ]);
+  const without = { birlfr: { reward: [[-0.1, 0]], posterior } };
+  assert.deepEqual(posteriorSentences(entries, without, world), [], "a goal worth nothing sets no scale");
 });

@@ -73,7 +73,7 @@ test("a setting is read, or refused with what would be right", () => {
   assert.deepEqual(readSetting(alpha, ""), { value: 0.1, problem: "" });
   assert.equal(readSetting(alpha, "eleven").problem, "A number from 0 to 10 is needed here.");
   assert.equal(
-    readSetting({ ...alpha, name: "iterations", maximum: 1000 }, "1.5").problem,
+    readSetting({ ...alpha, name: "iterations", maximum: 1000, whole: true }, "1.5").problem,
     "A whole number is needed here.",
   );
 });

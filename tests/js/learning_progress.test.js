@@ -2,11 +2,18 @@ import assert from "node:assert/strict";
 import test from "node:test";
 import { RunProgress } from "#js/learning/progress.js";
 
-const TITLES = { meirl: "MEIRL", irlr: "IRLR" };
+const known = (name, title, more = {}) => ({ name, title, family: "paper", seeks_visits: true, ...more });
+const LEARNERS = [
+  known("meirl", "MEIRL"),
+  known("irlr", "IRLR"),
+  known("irlf", "IRLF"),
+  known("birlfr", "Bayesian IRLFR", { family: "ours", seeks_visits: false }),
+  known("random", "Random", { family: "baseline", seeks_visits: false }),
+];
 const queued = () =>
   new RunProgress(
     { status: "queued", reason: null, learners: { meirl: { outcome: null }, irlr: { outcome: null } } },
-    TITLES,
+    LEARNERS,
   );
 const frame = (learner, iteration) => ({ learner, iteration, iterations: 500, gap: 0.4 });
 
@@ -61,7 +68,31 @@ test("a failed run says why, a cancelled one how far it came", () => {
 
 test("a learner that ended far from the play is named", () => {
   const learners = { meirl: { outcome: "converged", gap: 0.0001 }, irlf: { outcome: "iteration_limit", gap: 84 } };
-  const titles = { meirl: "MEIRL", irlf: "IRLF" };
-  const progress = new RunProgress({ status: "done", reason: null, learners }, titles);
+  const progress = new RunProgress({ status: "done", reason: null, learners }, LEARNERS);
   assert.equal(progress.sentence, "The run is done. IRLF ended far from your play.");
+});
+
+test("a learner that does not seek the gap is not told off for it", () => {
+  const learners = { meirl: { outcome: "converged", gap: 0.0001 }, birlfr: { outcome: "converged", gap: 3 } };
+  const progress = new RunProgress({ status: "done", reason: null, learners }, LEARNERS);
+  assert.equal(progress.sentence, "Both learners have learned from your play.");
+});
+
+test("nobody claims that random play has learned", () => {
+  const random = { random: { outcome: "converged", gap: 5 } };
+  assert.equal(
+    new RunProgress({ status: "done", reason: null, learners: random }, LEARNERS).sentence,
+    "Random is done.",
+  );
+  const learners = { meirl: { outcome: "converged", gap: 0 }, ...random };
+  const both = new RunProgress({ status: "done", reason: null, learners }, LEARNERS);
+  assert.equal(both.sentence, "Both learners are done.");
+});
+
+test("who takes no iterations does not count them, and the time line is as long as the longest", () => {
+  const progress = queued();
+  progress.see({ ...frame("random", 0), iterations: 0 });
+  assert.equal(progress.sentenceOf("random"), "the gap to your play is 0.40 visits");
+  progress.see({ ...frame("birlfr", 3), iterations: 400 });
+  assert.equal(progress.limit, 400);
 });

@@ -23,15 +23,48 @@ export const WALKERS = /** @type {const} */ ({
   irlf: { title: "IRLF", token: "--who-irlf", shape: "triangle-down" },
   irlfr: { title: "IRLFR", token: "--who-irlfr", shape: "hexagon" },
   birlfr: { title: "Bayesian IRLFR", token: "--who-birlfr", shape: "star" },
+  model_free: { title: "Model-free IRLFR", token: "--who-model-free", shape: "bow-tie" },
+  trex: { title: "T-REX (linear)", token: "--who-baseline", shape: "triangle-right" },
+  bc: { title: "Behavioural cloning", token: "--who-baseline", shape: "plus" },
+  score_irl: { title: "Score-based IRL", token: "--who-baseline", shape: "hourglass" },
+  random: { title: "Random", token: "--who-baseline", shape: "saltire" },
   optimal: { title: "Optimum", token: "--who-optimal", shape: "diamond" },
 });
 
+/** One the browser does not know, from a newer server or a plug-in. */
+const STRANGER = { title: "", token: "--who-baseline", shape: "bar" };
+
 /** @param {string} who */
 export function walker(who) {
-  return WALKERS[/** @type {keyof typeof WALKERS} */ (who)] ?? WALKERS.human;
+  return Object.hasOwn(WALKERS, who) ? WALKERS[/** @type {keyof typeof WALKERS} */ (who)] : STRANGER;
 }
 
-/** Corners of each marker shape within the unit circle; a circle has none. @type {Record<string, [number, number][]>} */
+/** @type {[number, number][]} */
+const BOW_TIE = [
+  [-1.15, -0.9],
+  [0, -0.3],
+  [1.15, -0.9],
+  [1.15, 0.9],
+  [0, 0.3],
+  [-1.15, 0.9],
+];
+/** @type {[number, number][]} */
+const PLUS = [
+  [-0.38, -1.1],
+  [0.38, -1.1],
+  [0.38, -0.38],
+  [1.1, -0.38],
+  [1.1, 0.38],
+  [0.38, 0.38],
+  [0.38, 1.1],
+  [-0.38, 1.1],
+  [-0.38, 0.38],
+  [-1.1, 0.38],
+  [-1.1, -0.38],
+  [-0.38, -0.38],
+];
+
+/** Corners of each marker shape about the unit circle; a circle has none. @type {Record<string, [number, number][]>} */
 const CORNERS = {
   circle: [],
   square: polygon(4, 45, 1.1),
@@ -40,6 +73,17 @@ const CORNERS = {
   hexagon: polygon(6, 0, 1.05),
   diamond: polygon(4, 0, 1.15),
   star: star(),
+  "bow-tie": BOW_TIE,
+  hourglass: BOW_TIE.map(([x, y]) => [y, x]),
+  "triangle-right": polygon(3, 0, 1.15),
+  plus: PLUS,
+  saltire: PLUS.map(([x, y]) => [Math.SQRT1_2 * (x - y), Math.SQRT1_2 * (x + y)]),
+  bar: [
+    [-1.1, -0.4],
+    [1.1, -0.4],
+    [1.1, 0.4],
+    [-1.1, 0.4],
+  ],
 };
 
 /** SVG path data of a marker of radius `r` about (`x`, `y`). @param {string} shape @param {number} [x] @param {number} [y] @param {number} [r] */

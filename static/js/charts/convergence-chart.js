@@ -130,7 +130,7 @@ export class ConvergenceChart {
         {},
         ...this.#learners.map((learner) => ({
           label: walker(learner).title,
-          stroke: who[learner] ?? ink,
+          stroke: who[learner] ?? who.random ?? ink,
           width: 2,
           spanGaps: true,
           points: { show: false },
@@ -173,7 +173,7 @@ function drawMarkers(plot, index, learner, ground) {
   const { ctx } = plot;
   const radius = 4.5 * devicePixelRatio;
   ctx.save();
-  ctx.fillStyle = /** @type {string} */ (theme().who[learner] ?? "");
+  ctx.fillStyle = /** @type {string} */ (theme().who[learner] ?? theme().who.random);
   ctx.strokeStyle = ground;
   ctx.lineWidth = 1.25 * devicePixelRatio;
   for (const row of markerRows(plot, index)) {

@@ -9,6 +9,10 @@ export const ROW_HEIGHT = 34;
 const TOP = 26;
 const AXIS = 30;
 const RIGHT = 18;
+/** Where a name begins, how wide a character is at most (pixels), and what names may take of the width. */
+export const NAME = 20;
+const CHARACTER = 7.4;
+const MOST_FOR_NAMES = 0.36;
 
 /**
  * @typedef {object} DotRow
@@ -42,7 +46,8 @@ export const WHISKER = 2;
  * @returns {DotPlotLayout}
  */
 export function layOutDotPlot(entries, width) {
-  const left = Math.min(104, Math.max(76, width * 0.22));
+  const longest = Math.max(...entries.map(({ title }) => title.length));
+  const left = Math.min(Math.max(76, NAME + CHARACTER * longest), Math.max(76, MOST_FOR_NAMES * width));
   const right = width - RIGHT;
   const optimum = entries.find((entry) => entry.who === "optimal");
   const optimal = optimum ? (optimum.expected_return ?? optimum.mean_return) : null;
@@ -76,6 +81,16 @@ export function layOutDotPlot(entries, width) {
     zero: domain[0] < 0 && domain[1] > 0 ? x(0) : null,
     optimum: optimal === null ? null : x(optimal),
   };
+}
+
+/**
+ * A name shortened until it fits between its marker and the plotting area.
+ * @param {string} title
+ * @param {number} left where the plotting area begins
+ */
+export function fitted(title, left) {
+  const most = Math.floor((left - NAME) / CHARACTER);
+  return title.length <= most ? title : `${title.slice(0, most - 1).trimEnd()}…`;
 }
 
 /**

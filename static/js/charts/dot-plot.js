@@ -5,7 +5,7 @@
  * @import {DotPlotLayout, DotRow} from "#js/charts/dot-plot-layout.js"
  */
 import { markerPath, walker } from "#js/board/colours.js";
-import { layOutDotPlot } from "#js/charts/dot-plot-layout.js";
+import { fitted, layOutDotPlot, NAME } from "#js/charts/dot-plot-layout.js";
 import { figure, withError } from "#js/charts/figures.js";
 import { svgElement } from "#js/charts/marker.js";
 
@@ -71,7 +71,7 @@ function rowGroup({ entry, y, mean, isOffScale, interval, expected, greedy }, la
   const group = svgElement("g", { class: "dot-plot-row", "data-who": entry.who });
   group.append(
     svgElement("path", { class: "dot-plot-key", d: markerPath(walker(entry.who).shape, 8, y, 5.5) }),
-    svgElement("text", { class: "dot-plot-name", x: 20, y: y + 4.5 }, entry.title),
+    svgElement("text", { class: "dot-plot-name", x: NAME, y: y + 4.5 }, fitted(entry.title, layout.left)),
     svgElement("line", { class: "dot-plot-guide", x1: layout.left, x2: layout.right, y1: y, y2: y }),
   );
   if (greedy !== null) {

@@ -2,8 +2,9 @@
  * The result in words. Two means closer than two standard errors of the learner's are "about the same": the sentence
  * never claims more than fifty episodes can show.
  * @import {Entry} from "#js/comparisons/types.js"
+ * @import {Result, World} from "#js/learning/types.js"
  */
-import { figure, listed, withError } from "#js/charts/figures.js";
+import { figure, listed, percent, withError } from "#js/charts/figures.js";
 
 const SURE = 2;
 
@@ -33,6 +34,51 @@ export function backgroundSentence(entries, attemptTotals) {
   const mean = `Your figure is the mean of all ${count} attempts, failures included.`;
   const best = attemptTotals.length > 0 ? ` Your best attempt alone earned ${figure(Math.max(...attemptTotals))}.` : "";
   return mean + headCount(learnersByPlace(entries), human, "that mean") + best;
+}
+
+/**
+ * What learners that know what they do not know expect of their own plan: one sentence each. They reckon in units of
+ * their own; the goal, whose worth the world tells, sets the scale.
+ * @param {Entry[]} entries
+ * @param {Record<string, Result>} results
+ * @param {Pick<World, "rewards" | "goal">} world
+ */
+export function posteriorSentences(entries, results, { rewards, goal }) {
+  return entries.flatMap(({ who, title }) => {
+    const { posterior, reward } = results[who] ?? {};
+    const scale = (rewards.flat()[goal] ?? 0) / (reward?.flat()[goal] ?? 0);
+    if (!posterior || !(scale > 0) || !Number.isFinite(scale)) return [];
+    const [low, high] = [posterior.return_low, posterior.return_high].map((value) => figure(scale * value));
+    return `${title} itself expects its plan to earn ${low} to ${high} (${percent(posterior.level)} of its ${posterior.n_draws} draws).`;
+  });
+}
+
+/**
+ * Who walks softly and who plans. Of the squares where nothing is preferred (the goal, walls) neither is said.
+ * @param {Entry[]} entries
+ * @param {Record<string, Result>} results
+ */
+export function softSentence(entries, results) {
+  const titles = (/** @type {string} */ manner) =>
+    learnersByPlace(entries)
+      .filter(({ who }) => mannerOf(results[who]?.policy ?? []) === manner)
+      .map(({ title }) => title);
+  const [soft, plans] = [titles("soft"), titles("plan")];
+  const parts = [];
+  if (soft.length > 0)
+    parts.push(
+      `${listed(soft)} ${soft.length === 1 ? "walks" : "walk"} softly: likelier steps more often, none always.`,
+    );
+  if (plans.length === 1) parts.push(`${listed(plans)} plans, and always takes the step it thinks best.`);
+  if (plans.length > 1) parts.push(`${listed(plans)} plan, and always take the step they think best.`);
+  return parts.join(" ");
+}
+
+/** @param {number[][]} policy (S, 4) @returns {"plan" | "soft" | "random"} */
+function mannerOf(policy) {
+  const preferring = policy.filter((row) => Math.max(...row) - Math.min(...row) > 1e-9);
+  if (preferring.length === 0) return "random";
+  return preferring.every((row) => Math.max(...row) > 1 - 1e-9) ? "plan" : "soft";
 }
 
 /**

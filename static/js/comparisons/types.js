@@ -1,6 +1,6 @@
 /**
  * The JSON of the comparison room, as ARCHITECTURE.md draws it.
- * @import {Demonstration, Rankings, Run, World} from "#js/learning/types.js"
+ * @import {Demonstration, LearnerInfo, Rankings, Run, World} from "#js/learning/types.js"
  *
  * @typedef {object} Entry how one agent did, measured on the same world
  * @property {string} who "human", a learner's name or "optimal"
@@ -22,6 +22,7 @@
  * @property {Demonstration[]} demonstrations
  * @property {Rankings} rankings
  * @property {Run} run
+ * @property {Omit<LearnerInfo, "missing" | "preselected">[]} learners those of the run
  * @property {Comparison} comparison
  * @property {Rollouts} rollouts
  */

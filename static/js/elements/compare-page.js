@@ -12,14 +12,22 @@ import { AgentPanel } from "#js/comparisons/agent-panel.js";
 import { fileName, reproduceCommand } from "#js/comparisons/reproduce.js";
 import { resultRows } from "#js/comparisons/result-table.js";
 import { episodeOf, lengthOf } from "#js/comparisons/rollouts.js";
-import { backgroundSentence, isLearner, onStage, resultSentence } from "#js/comparisons/sentences.js";
+import {
+  backgroundSentence,
+  isLearner,
+  onStage,
+  posteriorSentences,
+  resultSentence,
+  softSentence,
+} from "#js/comparisons/sentences.js";
 import { Transport } from "#js/comparisons/transport.js";
+import { columnsFor } from "#js/learning/line-up.js";
 import { untouched } from "#js/learning/material.js";
 import { announce } from "#js/lib/announce.js";
 import { pageData } from "#js/lib/page-data.js";
 
-/** Learners that do not look at failures; for their boards a square that only a failure visited is unknown. */
-const BLIND_TO_FAILURES = ["meirl", "irlr"];
+/** Agents in one row on a wide screen: so many boards are still seen whole beside the transport. */
+const MOST_IN_A_ROW = 7;
 
 export class ComparePage extends HTMLElement {
   #life = new AbortController();
@@ -131,6 +139,11 @@ export class ComparePage extends HTMLElement {
     this.#part("sentence").textContent = resultSentence(this.#entries);
     this.#part("background").textContent = backgroundSentence(this.#entries, attempts);
     this.#part("rows").replaceChildren(...resultRows(this.#entries));
+    this.#part("intervals").replaceChildren(
+      ...posteriorSentences(this.#entries, run.learners, this.#data.world).map(paragraph),
+    );
+    this.#part("soft-words").textContent = softSentence(this.#entries, run.learners);
+    this.#part("failure-words").hidden = !("irlf" in run.learners || "irlfr" in run.learners);
     this.#part("command").textContent = reproduceCommand(run);
     this.#part("download").href = `/api/v1/runs/${run.id}/demonstrations.jsonl`;
     this.#part("download").download = fileName(run);
@@ -152,6 +165,7 @@ export class ComparePage extends HTMLElement {
         }),
     );
     this.#part("stage").replaceChildren(...this.#panels.map((panel) => panel.element));
+    this.#part("stage").style.setProperty("--columns", String(columnsFor(this.#panels.length, MOST_IN_A_ROW)));
   }
 
   #buildBeliefs() {
@@ -161,15 +175,17 @@ export class ComparePage extends HTMLElement {
     const boards = learners.map((entry) => {
       const values = run.learners[entry.who]?.reward?.flat() ?? [];
       const belief = this.#belief(entry.title, entry.who, `Reward that ${entry.title} learned.`);
-      const largest = Math.max(...values.map(Math.abs)) || 1;
-      belief.board.view = { values, unknown: this.#unknownTo(entry.who), scale: [-largest, largest] };
+      const largest = Math.max(...values.map(Math.abs));
+      const scale = /** @type {[number, number]} */ ([-(largest || 1), largest || 1]);
+      belief.board.view = { values, unknown: this.#unknownTo(entry.who), scale };
       belief.lowest.textContent = figure(-largest);
       belief.highest.textContent = `+${figure(largest)}`;
+      if (!largest) wordsFor(belief.ramp, "learns no reward");
       return belief.element;
     });
-    truth.ramp.classList.add("ramp--words");
-    truth.ramp.textContent = `deeper is dearer; goal +${world.rows + world.cols}`;
+    wordsFor(truth.ramp, `deeper is dearer; goal +${world.rows + world.cols}`);
     this.#part("beliefs").replaceChildren(truth.element, ...boards);
+    this.#part("beliefs").style.setProperty("--columns", String(columnsFor(boards.length + 1)));
   }
 
   /** @param {string} title @param {string | null} who @param {string} label */
@@ -194,7 +210,9 @@ export class ComparePage extends HTMLElement {
   /** @param {string} learner */
   #unknownTo(learner) {
     const { world, demonstrations } = this.#data;
-    return untouched(world, demonstrations, { uses_failures: !BLIND_TO_FAILURES.includes(learner) });
+    // Who does not look at failures does not know a square where only a failure came.
+    const uses_failures = this.#data.learners.find(({ name }) => name === learner)?.uses_failures ?? true;
+    return untouched(world, demonstrations, { uses_failures });
   }
 
   /** @param {Entry} entry @param {number} count */
@@ -248,6 +266,19 @@ export class ComparePage extends HTMLElement {
   #part(name) {
     return this.querySelector(`[data-part="${name}"], [data-action="${name}"]`);
   }
+}
+
+/** Words in place of a ramp. @param {HTMLElement} ramp @param {string} words */
+function wordsFor(ramp, words) {
+  ramp.classList.add("ramp--words");
+  ramp.textContent = words;
+}
+
+/** @param {string} text */
+function paragraph(text) {
+  const made = document.createElement("p");
+  made.textContent = text;
+  return made;
 }
 
 customElements.define("compare-page", ComparePage);

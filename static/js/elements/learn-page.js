@@ -5,21 +5,14 @@
  */
 import "#js/elements/irl-board.js";
 import { ConvergenceChart } from "#js/charts/convergence-chart.js";
-import { marker } from "#js/charts/marker.js";
 import { chartInWords, figuresTable, measureHelp, measureTitle } from "#js/learning/chart-words.js";
 import { FrameStore } from "#js/learning/frame-store.js";
-import { LearnerPanel } from "#js/learning/learner-panel.js";
-import {
-  describeMaterial,
-  isOutdated,
-  lacksFinished,
-  missingWith,
-  untouched,
-  wayThere,
-  weighted,
-} from "#js/learning/material.js";
+import { LineUp } from "#js/learning/line-up.js";
+import { describeMaterial, isOutdated, lacksFinished, missingWith, wayThere } from "#js/learning/material.js";
+import { drawOwnPlay } from "#js/learning/own-play.js";
 import { RunProgress } from "#js/learning/progress.js";
 import { followRun } from "#js/learning/run-stream.js";
+import { Scrubber } from "#js/learning/scrubber.js";
 import { SettingsForm } from "#js/learning/settings-form.js";
 import { Timeline } from "#js/learning/timeline.js";
 import { announce } from "#js/lib/announce.js";
@@ -40,8 +33,8 @@ export class LearnPage extends HTMLElement {
   #timeline = new Timeline();
   /** @type {RunProgress | null} */
   #progress = null;
-  /** @type {LearnerPanel[]} */
-  #panels = [];
+  #lineUp = new LineUp(this, this.#data);
+  #scrubber = new Scrubber(this);
   /** @type {ConvergenceChart | null} */
   #chart = null;
   /** @type {SettingsForm | null} */
@@ -60,7 +53,7 @@ export class LearnPage extends HTMLElement {
     const { signal } = this.#life;
     this.#settings = new SettingsForm(this.#part("form"), this.#data.settings, this.#data.run?.settings ?? {});
     this.#weighSettings();
-    this.#buildPanels();
+    this.#part("own-board").world = this.#data.world;
     this.#chart = new ConvergenceChart(this.#part("chart"), this.#store, {
       learners: this.#data.learners.map(({ name }) => name),
       onPick: (iteration) => this.#hold(iteration),
@@ -68,10 +61,11 @@ export class LearnPage extends HTMLElement {
     });
     this.addEventListener("click", (event) => this.#onClick(event), { signal });
     this.addEventListener("change", (event) => this.#onChange(event), { signal });
-    this.#part("range").addEventListener("input", () => this.#hold(Number(this.#range.value)), { signal });
+    const { range } = this.#scrubber;
+    range.addEventListener("input", () => this.#hold(Number(range.value)), { signal });
     this.#part("figures-box").addEventListener("toggle", () => this.#paintFigures(), { signal });
     this.#part("form").addEventListener("submit", (/** @type {Event} */ event) => event.preventDefault(), { signal });
-    this.#drawOwnPlay("all");
+    drawOwnPlay(this.#part("own-board"), this.#data, "all");
     if (this.#data.run) this.#watch(this.#data.run);
     this.#schedule();
   }
@@ -86,7 +80,7 @@ export class LearnPage extends HTMLElement {
   /** Ask for a run of the chosen learners and watch it. */
   async learn() {
     if (this.#isAsking) return;
-    const learners = this.#panels.filter((panel) => panel.checkbox.checked).map((panel) => panel.learner.name);
+    const learners = this.#lineUp.chosen;
     const asked = this.#settings?.read();
     if (learners.length === 0) return this.#complain("Choose at least one learner: tick the box above its board.");
     if (!asked) return this.#openSettings();
@@ -135,8 +129,7 @@ export class LearnPage extends HTMLElement {
       const before = learner.missing;
       const atDefault = { ...learner, missing: this.#missing.get(learner.name) ?? null };
       learner.missing = missingWith(atDefault, demonstrations, rankings, unfinished);
-      const panel = this.#panels.find((one) => one.learner === learner);
-      if (panel && learner.missing !== before) panel.weigh();
+      if (learner.missing !== before) this.#lineUp.weigh(learner);
     }
   }
 
@@ -147,15 +140,9 @@ export class LearnPage extends HTMLElement {
     this.#data.run = run;
     this.#store = new FrameStore();
     this.#timeline = new Timeline();
-    this.#progress = new RunProgress(
-      run,
-      Object.fromEntries(this.#data.learners.map(({ name, title }) => [name, title])),
-    );
+    this.#progress = new RunProgress(run, this.#data.learners);
     this.#chart?.read(this.#store);
-    for (const panel of this.#panels) {
-      panel.clear();
-      panel.checkbox.checked = panel.learner.name in run.learners;
-    }
+    this.#lineUp.begin(Object.keys(run.learners));
     this.#showFinalStates(run);
     followRun(run.id, this.#listener(), this.#stream.signal);
     this.#touch();
@@ -168,7 +155,7 @@ export class LearnPage extends HTMLElement {
       this.#see({
         learner,
         iteration: result.iterations ?? 0,
-        iterations: Number(run.settings.iterations ?? result.iterations ?? 0),
+        iterations: result.iterations ?? 0,
         gap: result.gap ?? Number.NaN,
         log_likelihood: result.log_likelihood ?? null,
         reward: result.reward.flat(),
@@ -246,7 +233,7 @@ export class LearnPage extends HTMLElement {
   #paintBoards() {
     const shown = { arrows: this.#isOn("arrows"), visits: this.#isOn("visits"), numbers: this.#isOn("numbers") };
     const progress = this.#progress;
-    for (const panel of this.#panels) {
+    for (const panel of this.#lineUp.panels) {
       const { name } = panel.learner;
       if (!progress || !(name in (this.#data.run?.learners ?? {}))) continue;
       const frame = this.#timeline.isFollowing
@@ -268,6 +255,7 @@ export class LearnPage extends HTMLElement {
     this.#chart?.update(this.#timeline.position, this.#lastIteration);
     const learners = this.#data.learners.filter(({ name }) => this.#store.latest(name));
     this.#part("chart").setAttribute("aria-label", chartInWords(this.#store, learners, this.#measure));
+    this.#setText("measure-help", measureHelp(this.#measure, learners));
     if (this.#part("figures-box").open) this.#paintFigures();
   }
 
@@ -325,8 +313,8 @@ export class LearnPage extends HTMLElement {
 
   /** The way to what the first learner that cannot start misses. @param {boolean} canLearn */
   #paintWayThere(canLearn) {
-    const { world, demonstrations, learners } = this.#data;
-    const stuck = learners.find((learner) => learner.missing);
+    const { world, demonstrations } = this.#data;
+    const stuck = this.#lineUp.learners.find((learner) => learner.missing);
     const link = this.#part("way-there");
     link.hidden = !stuck || (this.#progress !== null && !this.#progress.isOver);
     if (!stuck) return;
@@ -344,66 +332,16 @@ export class LearnPage extends HTMLElement {
   }
 
   #paintTimeline() {
-    const { position, isPlaying } = this.#timeline;
-    const isEmpty = this.#store.size === 0;
-    this.#range.max = String(this.#lastIteration);
-    this.#range.value = String(position);
-    this.#range.disabled = isEmpty;
-    this.#range.setAttribute("aria-valuetext", `iteration ${position}`);
-    this.#setText("position", `iteration ${position}`);
-    const play = this.#part("play-back");
-    play.disabled = isEmpty;
-    play.setAttribute("aria-pressed", String(isPlaying));
-    this.#part("play-icon").hidden = isPlaying;
-    this.#part("pause-icon").hidden = !isPlaying;
-    this.#setText("play-word", isPlaying ? "Pause" : "Play back");
-    this.dataset.iteration = String(position);
+    this.#scrubber.paint(this.#timeline, this.#lastIteration, this.#store.size === 0);
+    this.dataset.iteration = String(this.#timeline.position);
   }
 
   /** The right end of the time line: the limit while learning, so that nothing moves; then what was reached. */
   get #lastIteration() {
-    const limit = Number(this.#data.run?.settings?.iterations ?? 500);
+    const limit = this.#progress?.limit || Number(this.#data.run?.settings?.iterations ?? 500);
     return this.#progress && !this.#progress.isOver
       ? Math.max(limit, this.#timeline.last)
       : Math.max(1, this.#timeline.last || limit);
-  }
-
-  #buildPanels() {
-    const template = /** @type {HTMLTemplateElement} */ (this.querySelector("#learner-panel"));
-    const { learners, world, demonstrations } = this.#data;
-    this.#panels = learners.map(
-      (learner) => new LearnerPanel(template, learner, world, untouched(world, demonstrations, learner)),
-    );
-    const own = /** @type {HTMLElement} */ (this.querySelector(".agent-panel--own"));
-    own.parentElement?.replaceChildren(own, ...this.#panels.map((panel) => panel.element));
-    for (const panel of this.#panels) panel.checkbox.checked = !panel.learner.missing;
-    const key = learners.map(({ name, title }) => {
-      const item = document.createElement("li");
-      item.append(marker(name), title);
-      return item;
-    });
-    this.#part("chart-key").replaceChildren(...key);
-    this.#part("own-board").world = world;
-  }
-
-  /** @param {string} which */
-  #drawOwnPlay(which) {
-    const { demonstrations, rankings } = this.#data;
-    const outcomes = /** @type {const} */ (["failure", "success"]).filter(
-      (outcome) => which === "all" || which === outcome,
-    );
-    const drawn = outcomes.flatMap((outcome) => weighted(demonstrations, rankings, outcome).reverse());
-    const heaviest = Math.max(...drawn.map(({ weight }) => weight));
-    const board = this.#part("own-board");
-    board.view = {
-      paths: drawn.map(({ demonstration, weight }) => ({
-        states: demonstration.states,
-        who: "human",
-        width: weight / heaviest,
-        opacity: demonstration.outcome === "success" || which !== "all" ? 0.9 : 0.45,
-      })),
-    };
-    board.label = `The world with ${drawn.length} of your attempts drawn as lines; the heavier its weight, the wider.`;
   }
 
   /** @param {Event} event */
@@ -425,11 +363,11 @@ export class LearnPage extends HTMLElement {
   #onChange(event) {
     const control = /** @type {HTMLInputElement} */ (event.target);
     if (control.name === "unfinished_failures") this.#weighSettings();
-    if (control.name === "drawn") this.#drawOwnPlay(control.value);
+    if (control.name === "learner" || control.name === "more-learner") this.#lineUp.change(control);
+    if (control.name === "drawn") drawOwnPlay(this.#part("own-board"), this.#data, control.value);
     if (control.name === "measure") {
       this.#measure = control.value === "gap" ? "gap" : "log_likelihood";
       this.#setText("chart-title", measureTitle(this.#measure));
-      this.#setText("measure-help", measureHelp(this.#measure));
       this.#chart?.show(this.#measure);
       this.#chartIsOld = true;
     }
@@ -468,7 +406,7 @@ export class LearnPage extends HTMLElement {
 
   /** @param {boolean} isLocked */
   #lock(isLocked) {
-    for (const panel of this.#panels) panel.checkbox.disabled = isLocked || panel.learner.missing !== null;
+    this.#lineUp.isLocked = isLocked;
     if (this.#settings) this.#settings.disabled = isLocked;
   }
 
@@ -480,10 +418,6 @@ export class LearnPage extends HTMLElement {
   /** @param {string} learner */
   #titleOf(learner) {
     return this.#data.learners.find(({ name }) => name === learner)?.title ?? learner;
-  }
-
-  get #range() {
-    return /** @type {HTMLInputElement} */ (this.#part("range"));
   }
 
   /** @param {string} name @param {string} text */

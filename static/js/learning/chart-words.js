@@ -3,7 +3,7 @@
  * @import {FrameStore} from "#js/learning/frame-store.js"
  * @import {LearnerInfo} from "#js/learning/types.js"
  */
-import { significant } from "#js/charts/figures.js";
+import { listed, significant } from "#js/charts/figures.js";
 
 /** @typedef {"gap" | "log_likelihood"} Measure */
 
@@ -27,8 +27,26 @@ const WORDS = {
 /** @param {Measure} measure */
 export const measureTitle = (measure) => WORDS[measure].title;
 
-/** @param {Measure} measure */
-export const measureHelp = (measure) => WORDS[measure].help;
+/**
+ * @param {Measure} measure
+ * @param {Pick<LearnerInfo, "title" | "seeks_visits">[]} learners those on the chart
+ */
+export function measureHelp(measure, learners) {
+  const others = learners.filter((learner) => !learner.seeks_visits).map(({ title }) => title);
+  return others.length > 0 ? `${WORDS[measure].help} ${aboutOthers(measure, others)}` : WORDS[measure].help;
+}
+
+/**
+ * Not every learner descends to the gap, nor climbs the same likelihood.
+ * @param {Measure} measure
+ * @param {string[]} titles
+ */
+function aboutOthers(measure, titles) {
+  const isOne = titles.length === 1;
+  if (measure === "log_likelihood")
+    return `${listed(titles)} ${isOne ? "climbs a measure of its own: its line compares" : "climb measures of their own: each of their lines compares"} with itself alone.`;
+  return `${listed(titles)} ${isOne ? "seeks something else: its line only tells how differently it walks" : "seek something else: their lines only tell how differently they walk"}.`;
+}
 
 /**
  * @param {FrameStore} store

@@ -110,7 +110,8 @@ export class LearnerPanel {
 }
 
 /** @param {LearnerInfo} learner */
-function usesInWords({ uses_ranking, uses_failures }) {
+function usesInWords({ family, summary, uses_ranking, uses_failures }) {
+  if (family !== "paper") return summary;
   const what = uses_failures ? "your successes and your failures" : "your successes";
   return `Learns from ${what}${uses_ranking ? ", in your order" : ", all alike"}.`;
 }

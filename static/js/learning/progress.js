@@ -1,6 +1,6 @@
 /**
  * How far a run is, in words: one line a learner and one for all of them.
- * @import {Frame, Result, Run, RunStatus} from "#js/learning/types.js"
+ * @import {Frame, LearnerInfo, Result, Run, RunStatus} from "#js/learning/types.js"
  */
 import { listed, significant } from "#js/charts/figures.js";
 import { plural } from "#js/lib/format.js";
@@ -9,7 +9,9 @@ import { plural } from "#js/lib/format.js";
 
 /** Visits from which on the core, too, calls a gap wide. */
 const WIDE_GAP = 0.5;
-const ORDINALS = ["first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth"];
+const ORDINALS = ["first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth"];
+
+/** @typedef {Pick<LearnerInfo, "name" | "title" | "family" | "seeks_visits">} Known */
 
 export class RunProgress {
   /** @type {Map<string, Frame>} */
@@ -22,18 +24,18 @@ export class RunProgress {
   #nLeftOut = 0;
   /** @type {string[]} */
   #learners;
-  /** @type {Record<string, string>} */
-  #titles;
+  /** @type {Map<string, Known>} */
+  #known;
 
   /**
    * @param {Pick<Run, "status" | "reason" | "learners">} run
-   * @param {Record<string, string>} titles how each learner is called
+   * @param {Known[]} learners all there are
    */
-  constructor(run, titles) {
+  constructor(run, learners) {
     this.#status = run.status;
     this.#reason = run.reason ?? "";
     this.#learners = Object.keys(run.learners);
-    this.#titles = titles;
+    this.#known = new Map(learners.map((learner) => [learner.name, learner]));
     for (const [learner, result] of Object.entries(run.learners)) if (result.outcome) this.settle(learner, result);
   }
 
@@ -43,6 +45,11 @@ export class RunProgress {
 
   get isOver() {
     return this.#status !== "queued" && this.#status !== "running";
+  }
+
+  /** The most iterations that any learner seen so far may take. */
+  get limit() {
+    return Math.max(0, ...[...this.#latest.values()].map(({ iterations }) => iterations));
   }
 
   /** @param {Frame} frame */
@@ -95,7 +102,9 @@ export class RunProgress {
    */
   sentenceOf(learner, frame = this.#latest.get(learner) ?? null) {
     const stage = this.stageOf(learner);
-    if (frame) return `iteration ${frame.iteration} of ${frame.iterations} · ${gapInWords(frame.gap)}`;
+    if (frame && frame.iterations > 1)
+      return `iteration ${frame.iteration} of ${frame.iterations} · ${gapInWords(frame.gap)}`;
+    if (frame) return gapInWords(frame.gap);
     if (stage === "learned") return gapInWords(this.#results.get(learner)?.gap ?? Number.NaN);
     if (stage === "ended") return "not reached";
     return this.#status === "queued" ? "waiting for a free worker" : "waiting its turn";
@@ -135,18 +144,27 @@ export class RunProgress {
 
   #doneSentence() {
     const diverged = this.#learners.filter((learner) => this.#results.get(learner)?.outcome === "diverged");
-    const astray = this.#learners.filter((learner) => (this.#results.get(learner)?.gap ?? 0) >= WIDE_GAP);
-    if (diverged.length === 0 && astray.length === 0)
-      return `${this.#everybody} learned from your play.${this.#leftOut}`;
+    const astray = this.#learners.filter((learner) => this.#isAstray(learner));
+    if (diverged.length === 0 && astray.length === 0) return `${this.#everybody}.${this.#leftOut}`;
     if (diverged.length === 0)
       return `The run is done. ${listed(astray.map((learner) => this.#titleOf(learner)))} ended far from your play.${this.#leftOut}`;
     return `The run is done. ${listed(diverged.map((learner) => this.#titleOf(learner)))} ran away instead of settling.`;
   }
 
+  /** Ended far from the play, although it sought to come near. @param {string} learner */
+  #isAstray(learner) {
+    const isWide = (this.#results.get(learner)?.gap ?? 0) >= WIDE_GAP;
+    return isWide && (this.#known.get(learner)?.seeks_visits ?? true);
+  }
+
   get #everybody() {
     const count = this.#learners.length;
-    if (count === 1) return `${this.#titleOf(this.#learners[0] ?? "")} has`;
-    return count === 2 ? "Both learners have" : `All ${count} learners have`;
+    const who = count === 2 ? "Both learners" : `All ${count} learners`;
+    const one = this.#titleOf(this.#learners[0] ?? "");
+    // Some baselines learn nothing at all.
+    if (this.#learners.some((learner) => this.#known.get(learner)?.family === "baseline"))
+      return count === 1 ? `${one} is done` : `${who} are done`;
+    return count === 1 ? `${one} has learned from your play` : `${who} have learned from your play`;
   }
 
   get #leftOut() {
@@ -162,7 +180,7 @@ export class RunProgress {
 
   /** @param {string} learner */
   #titleOf(learner) {
-    return this.#titles[learner] ?? learner.toUpperCase();
+    return this.#known.get(learner)?.title ?? learner.toUpperCase();
   }
 }
 

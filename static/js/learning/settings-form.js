@@ -1,6 +1,6 @@
 /**
- * The folded form of settings: one field a setting with the paper's symbol, its default, its range and a sentence, and
- * the seed. Empty means default.
+ * The folded form of settings, by what they are for: one field a setting with its symbol, default, range and a sentence,
+ * and the seed. Empty means default.
  * @import {SettingInfo} from "#js/learning/types.js"
  */
 import { readSetting } from "#js/learning/settings.js";
@@ -17,7 +17,14 @@ export class SettingsForm {
   constructor(form, settings, values) {
     this.#form = form;
     this.#settings = settings;
-    form.replaceChildren(...settings.map((setting) => field(setting, values[setting.name])), seedField());
+    const groups = [...new Set(settings.map(({ group = "" }) => group))].map((name) => {
+      const members = settings.filter(({ group = "" }) => group === name);
+      return fieldset(
+        titleOf(name),
+        members.map((setting) => field(setting, values[setting.name])),
+      );
+    });
+    form.replaceChildren(...groups, fieldset("Chance", [seedField()]));
   }
 
   /**
@@ -80,6 +87,21 @@ export class SettingsForm {
   }
 }
 
+/** What the groups of irl_core are called; one that is not here goes by its own name. @type {Record<string, string>} */
+const GROUPS = {
+  paper: "The paper’s descent",
+  model: "The model underneath",
+  birlfr: "Bayesian IRLFR",
+  model_free: "Model-free IRLFR",
+  baseline: "The baselines",
+};
+
+/** @param {string} group */
+function titleOf(group) {
+  const words = group.replaceAll("_", " ") || "More";
+  return GROUPS[group] ?? words.charAt(0).toUpperCase() + words.slice(1);
+}
+
 /** @type {SettingInfo} */
 const SEED = {
   name: "seed",
@@ -87,11 +109,22 @@ const SEED = {
   default: "",
   minimum: 0,
   maximum: Number.MAX_SAFE_INTEGER,
+  whole: true,
   help: "The same seed, play and order give the same run. Left empty, one is drawn and kept with the run.",
 };
 
 function seedField() {
   return field(SEED, undefined);
+}
+
+/**
+ * @param {string} title
+ * @param {HTMLElement[]} fields
+ */
+function fieldset(title, fields) {
+  const set = element("fieldset", { class: "settings-group" });
+  set.append(element("legend", {}, title), ...fields);
+  return set;
 }
 
 /**

@@ -17,7 +17,7 @@ export function readSetting(setting, text) {
   if (setting.choices?.length) return { value: trimmed, problem: "" };
   const value = Number(trimmed);
   if (!Number.isFinite(value) || isOutside(setting, value)) return { value: setting.default, problem: wanted(setting) };
-  if (isWhole(setting) && !Number.isInteger(value))
+  if (setting.whole && !Number.isInteger(value))
     return { value: setting.default, problem: `A whole number is needed here.` };
   return { value, problem: "" };
 }
@@ -35,9 +35,4 @@ function wanted({ minimum, maximum }) {
   if (minimum !== null && maximum !== null && maximum < Number.MAX_SAFE_INTEGER)
     return `A number from ${minimum} to ${maximum} is needed here.`;
   return minimum === null ? "A number is needed here." : `A number of at least ${minimum} is needed here.`;
-}
-
-/** @param {SettingInfo} setting */
-function isWhole({ name }) {
-  return name === "iterations" || name === "seed";
 }

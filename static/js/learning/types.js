@@ -23,6 +23,18 @@
  * @property {number[][]} [policy] (S, 4)
  * @property {number[][]} [visitation] rows × cols
  * @property {number} [n_left_out]
+ * @property {number[] | null} [weights] (K,), null where they are the reward
+ * @property {Posterior | null} [posterior]
+ *
+ * @typedef {object} Posterior what a Bayesian learner does not know
+ * @property {number} level the probability of its intervals
+ * @property {number[]} reward_low (S,)
+ * @property {number[]} reward_high (S,)
+ * @property {number[]} policy_agreement (S,) share of draws whose plan takes the executed action
+ * @property {number} return_low of the executed policy, in units of the learned reward
+ * @property {number} return_high
+ * @property {number} n_draws
+ * @property {number} acceptance
  *
  * @typedef {object} Run
  * @property {string} id
@@ -38,8 +50,13 @@
  * @typedef {object} LearnerInfo
  * @property {string} name
  * @property {string} title
+ * @property {string} summary what it does, in a sentence
+ * @property {"paper" | "ours" | "baseline"} family
  * @property {boolean} uses_ranking
  * @property {boolean} uses_failures
+ * @property {boolean} uses_scores
+ * @property {boolean} seeks_visits its iterations close the gap to the play
+ * @property {boolean} preselected it learns unless somebody says otherwise
  * @property {string | null} missing why it cannot run yet, as a sentence
  *
  * @typedef {object} SettingInfo
@@ -49,6 +66,8 @@
  * @property {number | null} minimum
  * @property {number | null} maximum
  * @property {string[] | null} [choices]
+ * @property {boolean} [whole] a whole number
+ * @property {string} [group] whom or what it is for
  * @property {string} help
  *
  * @typedef {import("#js/board/state.js").World} World
