@@ -9,7 +9,7 @@ from irl_core.errors import InvalidSettings
 from irl_core.features import FEATURE_NAMES, FeatureName
 from irl_core.inference.base import INFERENCE_KINDS, InferenceKind
 
-Group: TypeAlias = Literal["paper", "model", "model_free", "baseline"]
+Group: TypeAlias = Literal["paper", "model", "birlfr", "model_free", "baseline"]
 """The paper's descent; the model underneath (paths, features, optimiser); single learners; the baselines."""
 
 _WHOLE: Final = {"iterations", "episodes"}
@@ -143,6 +143,13 @@ class Settings:
         minimum=10,
         maximum=100_000,
         help="How many episodes the model-free learner plays in each iteration: the more, the less noise.",
+    )
+    use_colours: Literal["yes", "no"] = _choice(
+        "yes",
+        symbol="k",
+        group="birlfr",
+        choices=("yes", "no"),
+        help="Bayesian IRLFR: whether it sees the colours that people see, and takes red to cost more than blue.",
     )
     preference_l2: float = _number(
         0.1,

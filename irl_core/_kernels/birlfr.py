@@ -1,0 +1,292 @@
+"""The log posterior of Bayesian IRLFR with its gradient, and one transition of Hamiltonian Monte Carlo.
+
+The mathematics and the letters are those of `irl_core.learners.birlfr.model`. Open squares are 0 … n − 1 in the order
+of the band, goals n … n + G − 1. A position q, standard normal a priori, is laid out
+
+    z (n) | z_m (K) | z_σ (K) | log β, κ of successes and of failures, standardised (4) | worths of goals 1 … G − 1.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+LOG_FOUR = math.log(4.0)
+LOWEST = 1e-250  # of a path sum that is kept: below, what β and κ say has long been said
+HIGHEST = 600.0  # of an exponent
+
+
+class Evidence(NamedTuple):
+    """What the posterior is conditional on. B attempts, n open squares, G goals, P pairs."""
+
+    neighbours: np.ndarray  # (n, 4) int32: the square or goal each direction leads to
+    colours: np.ndarray  # (n,) int32: the class of each square
+    entries: np.ndarray  # (B, n + G): how often each attempt entered each square and goal
+    is_failure: np.ndarray  # (B,) int32
+    goals: np.ndarray  # (B,) int32: the goal reached, n …, or −1
+    path_ends: np.ndarray  # (2, n): of successes and failures, starts minus the squares where unfinished attempts ended
+    pairs: np.ndarray  # (P, 2) int32: the better and the worse of two attempts
+    width: int  # of the band
+
+
+class Prior(NamedTuple):
+    """The constants of the model, in its letters."""
+
+    class_means: np.ndarray  # (K,)
+    class_spread: float
+    square_spread: float
+    spread_of_spread: float
+    label_width: float
+    rank_width: float
+    flip_rate: float
+    choice_power: float
+    log_beta: float
+    log_beta_spread: float
+    log_kappa: float
+    log_kappa_spread: float
+    log_worth_spread: float
+
+
+@njit(cache=True)
+def transition(position, costs, momentum, inverse_metric, step_size, n_steps, log_uniform, evidence, prior):
+    """Move `position` in place, or leave it, and fill `costs`, (n + G,), with its own.
+
+    Gives the acceptance probability and the log posterior where the chain now is.
+    """
+    gradient, proposed = np.empty_like(position), np.empty_like(costs)
+    value = log_posterior(position, gradient, costs, evidence, prior)
+    q, p = position.copy(), momentum.copy()
+    energy = value - _kinetic(p, inverse_metric)
+    there = value
+    for _ in range(n_steps):
+        for i in range(len(q)):
+            p[i] += 0.5 * step_size * gradient[i]
+            q[i] += step_size * inverse_metric[i] * p[i]
+        there = log_posterior(q, gradient, proposed, evidence, prior)
+        if not there > -np.inf:
+            return 0.0, value
+        for i in range(len(q)):
+            p[i] += 0.5 * step_size * gradient[i]
+    gain = there - _kinetic(p, inverse_metric) - energy
+    if not gain > -HIGHEST:
+        return 0.0, value
+    if log_uniform < gain:
+        position[:], costs[:] = q, proposed
+        value = there
+    return math.exp(min(0.0, gain)), value
+
+
+@njit(cache=True)
+def _kinetic(momentum, inverse_metric):
+    total = 0.0
+    for i in range(len(momentum)):
+        total += momentum[i] * momentum[i] * inverse_metric[i]
+    return 0.5 * total
+
+
+@njit(cache=True)
+def log_posterior(q, gradient, costs, evidence, prior):
+    """The log posterior up to a constant; fills its gradient and the costs. −∞ where it cannot be computed with."""
+    n, n_goals = len(evidence.neighbours), evidence.entries.shape[1] - len(evidence.neighbours)
+    value = 0.0
+    for i in range(len(q)):
+        value -= 0.5 * q[i] * q[i]
+        gradient[i] = -q[i]
+    if not _costs(q, costs, n, n_goals, evidence, prior):
+        return -np.inf
+    by_cost = np.zeros(n + n_goals)
+    value += _labels_and_ranks(costs, by_cost, evidence, prior)
+    first_choice = n + 2 * len(prior.class_means)
+    for kind in range(2):
+        value += _choices(q, gradient, costs, by_cost, kind, first_choice, evidence, prior)
+    _through_costs(q, gradient, costs, by_cost, n, n_goals, evidence, prior)
+    return value
+
+
+@njit(cache=True)
+def _costs(q, costs, n, n_goals, evidence, prior):
+    """c(s) of squares; 1 − v of goals, v the worth in units of the first's."""
+    n_classes = len(prior.class_means)
+    for i in range(n):
+        k = evidence.colours[i]
+        spread = prior.square_spread * math.exp(prior.spread_of_spread * q[n + n_classes + k])
+        exponent = prior.class_means[k] + prior.class_spread * q[n + k] + spread * q[i]
+        if not abs(exponent) < HIGHEST:
+            return False
+        costs[i] = math.exp(exponent)
+    costs[n] = 0.0
+    for j in range(1, n_goals):
+        exponent = prior.log_worth_spread * q[n + 2 * n_classes + 3 + j]
+        if not abs(exponent) < HIGHEST:
+            return False
+        costs[n + j] = 1.0 - math.exp(exponent)
+    return True
+
+
+@njit(cache=True)
+def _through_costs(q, gradient, costs, by_cost, n, n_goals, evidence, prior):
+    """The chain rule from costs to what they are made of."""
+    n_classes = len(prior.class_means)
+    for i in range(n):
+        k = evidence.colours[i]
+        spread = prior.square_spread * math.exp(prior.spread_of_spread * q[n + n_classes + k])
+        by_log = by_cost[i] * costs[i]
+        gradient[i] += by_log * spread
+        gradient[n + k] += by_log * prior.class_spread
+        gradient[n + n_classes + k] += by_log * spread * q[i] * prior.spread_of_spread
+    for j in range(1, n_goals):
+        gradient[n + 2 * n_classes + 3 + j] += by_cost[n + j] * (costs[n + j] - 1.0) * prior.log_worth_spread
+
+
+@njit(cache=True)
+def _labels_and_ranks(costs, by_cost, evidence, prior):
+    n_attempts, n_all = evidence.entries.shape
+    totals, by_total, value = np.zeros(n_attempts), np.zeros(n_attempts), 0.0
+    for b in range(n_attempts):
+        if evidence.goals[b] >= 0:
+            totals[b] = 1.0
+        for i in range(n_all):
+            totals[b] -= evidence.entries[b, i] * costs[i]
+        if evidence.goals[b] >= 0:
+            sign = -1.0 if evidence.is_failure[b] else 1.0
+            x = sign * totals[b] / prior.label_width
+            value += _log_logistic(x)
+            by_total[b] += sign * _logistic(-x) / prior.label_width
+    for r in range(len(evidence.pairs)):
+        better, worse = evidence.pairs[r, 0], evidence.pairs[r, 1]
+        chance = _logistic((totals[better] - totals[worse]) / prior.rank_width)
+        with_flips = prior.flip_rate + (1.0 - 2.0 * prior.flip_rate) * chance
+        value += math.log(with_flips)
+        slope = (1.0 - 2.0 * prior.flip_rate) * chance * (1.0 - chance) / (with_flips * prior.rank_width)
+        by_total[better] += slope
+        by_total[worse] -= slope
+    for b in range(n_attempts):
+        for i in range(n_all):
+            by_cost[i] -= by_total[b] * evidence.entries[b, i]
+    return value
+
+
+@njit(cache=True)
+def _choices(q, gradient, costs, by_cost, kind, first_choice, evidence, prior):
+    """The tempered log-likelihood of the paths of successes (kind 0) or failures (kind 1); adds to the gradients."""
+    n, n_all = len(evidence.neighbours), len(costs)
+    ends, actual = evidence.path_ends[kind], np.zeros(n_all)
+    if not np.any(evidence.is_failure == kind):
+        return 0.0
+    for b in range(len(evidence.entries)):
+        if evidence.is_failure[b] == kind:
+            for i in range(n_all):
+                actual[i] += evidence.entries[b, i]
+    log_beta = prior.log_beta + prior.log_beta_spread * q[first_choice + 2 * kind]
+    log_excess = prior.log_kappa + prior.log_kappa_spread * q[first_choice + 2 * kind + 1]
+    if not max(log_beta, log_excess) < 6.4:  # e^6.4 = 600
+        return -np.inf
+    beta, excess = math.exp(log_beta), math.exp(log_excess)
+    action = np.empty(n_all)
+    for i in range(n_all):
+        action[i] = beta * costs[i] + (LOG_FOUR + excess if i < n else 0.0)
+    expected = np.zeros(n_all)
+    log_z = path_sum(action, evidence.neighbours, ends, evidence.width, expected)
+    if not log_z < np.inf:
+        return -np.inf
+    value, by_log_beta, by_kappa = -log_z, 0.0, 0.0
+    for i in range(n_all):
+        value -= actual[i] * action[i]
+        by_action = prior.choice_power * (expected[i] - actual[i])
+        by_cost[i] += by_action * beta
+        by_log_beta += by_action * beta * costs[i]
+        if i < n:
+            by_kappa += by_action
+    gradient[first_choice + 2 * kind] += by_log_beta * prior.log_beta_spread
+    gradient[first_choice + 2 * kind + 1] += by_kappa * excess * prior.log_kappa_spread
+    return prior.choice_power * value
+
+
+@njit(cache=True)
+def path_sum(action, neighbours, ends, width, expected):
+    """Σ_s ends_s log z(s), and in `expected`, (n + G,), minus its gradient in the action. +∞ where it underflows.
+
+    z(s) is the sum over paths from s to a goal of e^{−action of what is entered}; v(s) = e^{−action(s)} z(s) solves
+    K v = b with K = diag(e^{action}) − adjacency, b(s) = Σ e^{−action} of the goals beside s.
+    """
+    n = len(neighbours)
+    band, v, g = np.zeros((n, width + 1)), np.zeros(n), np.zeros(n)
+    for i in range(n):
+        if not action[i] < HIGHEST:
+            return np.inf
+        band[i, 0] = math.exp(action[i])
+        for direction in range(4):
+            j = neighbours[i, direction]
+            if j >= n:
+                v[i] += math.exp(min(-action[j], HIGHEST))
+            elif j == i:
+                band[i, 0] -= 1.0
+            elif j < i:
+                band[i, i - j] = -1.0
+    if not _factorise(band):
+        return np.inf
+    _solve(band, v)
+    value = 0.0
+    for i in range(n):
+        if ends[i] != 0.0:
+            if not v[i] > LOWEST:
+                return np.inf
+            value += ends[i] * (math.log(v[i]) + action[i])
+            g[i] = ends[i] / v[i]
+    _solve(band, g)
+    for i in range(n):
+        expected[i] += g[i] * v[i] * math.exp(action[i]) - ends[i]
+        for direction in range(4):
+            j = neighbours[i, direction]
+            if j >= n:
+                expected[j] += g[i] * math.exp(min(-action[j], HIGHEST))
+    return value
+
+
+@njit(cache=True)
+def _factorise(band):
+    """K = L D Lᵀ in place; `band[i, k]` is K(i, i − k) for k = 0 … width. False where a pivot is not above 0."""
+    n, width = band.shape[0], band.shape[1] - 1
+    for i in range(n):
+        first = max(0, i - width)
+        for j in range(first, i):
+            total = band[i, i - j]
+            for k in range(max(first, j - width), j):
+                total -= band[i, i - k] * band[j, j - k]
+            band[i, i - j] = total  # L(i, j) · D(j) until the row is done
+        pivot = band[i, 0]
+        for j in range(first, i):
+            scaled = band[i, i - j] / band[j, 0]
+            pivot -= scaled * band[i, i - j]
+            band[i, i - j] = scaled
+        if not pivot > 0.0:
+            return False
+        band[i, 0] = pivot
+    return True
+
+
+@njit(cache=True)
+def _solve(band, x):
+    """The solution of L D Lᵀ x = x, in place."""
+    n, width = band.shape[0], band.shape[1] - 1
+    for i in range(n):
+        for j in range(max(0, i - width), i):
+            x[i] -= band[i, i - j] * x[j]
+    for i in range(n):
+        x[i] /= band[i, 0]
+    for i in range(n - 1, -1, -1):
+        for j in range(max(0, i - width), i):
+            x[j] -= band[i, i - j] * x[i]
+
+
+@njit(cache=True)
+def _logistic(x):
+    if x >= 0.0:
+        return 1.0 / (1.0 + math.exp(-x))
+    return math.exp(x) / (1.0 + math.exp(x))
+
+
+@njit(cache=True)
+def _log_logistic(x):
+    return -math.log1p(math.exp(-x)) if x >= 0.0 else x - math.log1p(math.exp(x))
