@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from irl_core.arrays import Vector
+from irl_core.arrays import IntVector, Vector
 from irl_core.checks import Refused, identifier, is_integer, shown
 from irl_core.errors import ImpossibleDemonstration
 from irl_core.mdp import Mdp
@@ -14,8 +14,8 @@ from irl_core.types import OUTCOMES, Demonstration, DemonstrationOutcome, Ending
 
 def demonstration_of(
     mdp: Mdp,
-    states: Sequence[int],
-    actions: Sequence[int],
+    states: Sequence[int] | IntVector,
+    actions: Sequence[int] | IntVector,
     *,
     id: str,  # noqa: A002 - the field it sets
     outcome: DemonstrationOutcome,
@@ -50,7 +50,7 @@ def demonstration_of(
     return Demonstration(id, visited, taken, paid, float(paid.sum()), outcome, ending)
 
 
-def _whole_numbers(name: str, values: Sequence[int], *, below: int) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
+def _whole_numbers(name: str, values: Sequence[int] | IntVector, *, below: int) -> IntVector:
     listed = values.tolist() if isinstance(values, np.ndarray) else list(values)
     for step, value in enumerate(listed):
         if not is_integer(value) or not 0 <= int(value) < below:

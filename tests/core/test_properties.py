@@ -210,7 +210,8 @@ def test_the_order_and_the_splitting_of_demonstrations_change_nothing(mdp, seed,
 def walk(mdp, rng):
     """A random walk that arrives within the horizon, or nothing after twenty tries."""
     for _ in range(20):
-        states, actions = [int(rng.choice(mdp.n_states, p=mdp.starts))], []
+        states = [int(rng.choice(mdp.n_states, p=mdp.starts))]
+        actions: list[int] = []
         while not mdp.terminal[states[-1]] and len(actions) < mdp.horizon:
             actions.append(int(rng.integers(4)))
             states.append(int(mdp.next_states[states[-1], actions[-1]]))
