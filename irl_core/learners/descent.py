@@ -317,8 +317,8 @@ def _convergent_constant(problem: LearningProblem) -> Vector:
     wanted: Vector = np.full(problem.mdp.n_states, -math.log(problem.mdp.n_actions) - _BELOW_DIVERGENCE)
     if problem.features.name == "one_hot":
         return wanted
-    weights: Vector = np.linalg.lstsq(problem.features.dense(), wanted, rcond=None)[0]
-    return weights
+    nearest, *_ = np.linalg.lstsq(problem.features.dense(), wanted, rcond=None)
+    return np.asarray(nearest, dtype=np.float64).reshape(-1)
 
 
 def _how_it_ended(problem: LearningProblem, state: LearningState, outcome: Outcome, gap: float) -> str:

@@ -55,11 +55,11 @@ def test_a_step_never_leaves_the_finite_region():
         return (math.inf, np.zeros(1)) if w >= 1 else (-math.log(1 - w) - 50 * w, np.array([1 / (1 - w) - 50]))
 
     for name in ("newton", "lbfgs"):
-        values = {"w_success": np.array([-3.0])}
+        values: dict[str, np.ndarray | float] = {"w_success": np.array([-3.0])}
         for _ in range(60):
             values = optimisers.step(name, barrier, values)
-            assert values["w_success"][0] < 1
-        assert values["w_success"][0] == pytest.approx(1 - 1 / 50, abs=1e-5)
+            assert np.max(values["w_success"]) < 1
+        np.testing.assert_allclose(values["w_success"], 1 - 1 / 50, atol=1e-5)
 
 
 @pytest.mark.parametrize("name", ["meirl", "irlr"])
@@ -100,7 +100,7 @@ def test_an_optimiser_in_pieces_and_through_json_is_the_uninterrupted_one_bit_fo
 
 
 @pytest.mark.parametrize("inference", ["path", "path_infinite", "causal", "ziebart"])
-@pytest.mark.parametrize("name", list(LEARNERS)[:4])
+@pytest.mark.parametrize("name", ["meirl", "irlr", "irlf", "irlfr"])
 def test_every_inference_can_be_learned_with(name, inference):
     problem = small_problem(inference=inference, iterations=60, learning_rate=0.05, lambda_min=10.0, discount=0.95)
     result = learn(name, problem)
