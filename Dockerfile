@@ -16,7 +16,7 @@ COPY . .
 RUN pip wheel --no-cache-dir --no-deps --no-build-isolation --wheel-dir /wheels . \
  && /app/bin/pip install --no-cache-dir --no-deps /wheels/*.whl
 
-# Run: Python, the locked packages, and a user who owns nothing but the data.
+# Run: Python, the locked packages, and a user who owns nothing but the data; compiled kernels are kept there too.
 FROM python:3.13-slim-bookworm
 RUN useradd --uid 10001 --create-home irlfr && install --directory --owner=irlfr --group=irlfr /data
 COPY --from=build /app /app
@@ -24,7 +24,8 @@ ENV PATH=/app/bin:$PATH \
     PYTHONUNBUFFERED=1 \
     IRLFR_HOST=0.0.0.0 \
     IRLFR_PORT=8000 \
-    IRLFR_DATABASE_URL=sqlite:////data/irlfr.sqlite3
+    IRLFR_DATABASE_URL=sqlite:////data/irlfr.sqlite3 \
+    NUMBA_CACHE_DIR=/data/compiled
 USER irlfr
 WORKDIR /data
 VOLUME /data
