@@ -1,15 +1,22 @@
 """Rows to what irl_core learns from, and back to what crosses the wire."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, Final
+from typing import Any, Final, Protocol, runtime_checkable
 
 from app.demonstrations.convert import demonstration_from_row
 from app.learning.schemas import RunOut
 from app.models import Demonstration, Run, RunResult
-from irl_core import DEFAULT_LEARNERS, LEARNERS, LearningProblem, Ranking, Settings, World, rank_weights
+from irl_core import DEFAULT_LEARNERS, LEARNERS, Learner, LearningProblem, Ranking, Settings, World, rank_weights
 
 SEEK_THE_VISITS: Final = frozenset({"meirl", "irlr", "irlf", "irlfr", "model_free"})
 """Learners whose iterations close the gap to the play. That of the others only tells how differently they walk."""
+
+
+@runtime_checkable
+class KnowsItsNeeds(Protocol):
+    """A learner that itself says what it misses, since it needs less than what it uses."""
+
+    def missing(self, problem: LearningProblem) -> str | None: ...
 
 
 def to_problem(
@@ -68,9 +75,14 @@ def describe_learners(names: Iterable[str] = tuple(LEARNERS)) -> list[dict[str, 
 def describe_choice(problem: LearningProblem) -> list[dict[str, Any]]:
     """List all learners to choose from; `missing` says in a sentence why one cannot learn from this, or is None."""
     return [
-        told | {"preselected": told["name"] in DEFAULT_LEARNERS, "missing": problem.missing(LEARNERS[told["name"]])}
+        told | {"preselected": told["name"] in DEFAULT_LEARNERS, "missing": missing(problem, LEARNERS[told["name"]])}
         for told in describe_learners()
     ]
+
+
+def missing(problem: LearningProblem, learner: Learner) -> str | None:
+    """Say in a sentence why a learner cannot learn from this, or None. Nothing is computed, as `start` might."""
+    return learner.missing(problem) if isinstance(learner, KnowsItsNeeds) else problem.missing(learner)
 
 
 def describe_settings() -> list[dict[str, Any]]:

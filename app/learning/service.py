@@ -13,13 +13,13 @@ from app.demonstrations import queries as demonstrations
 from app.errors import Conflict, Unprocessable
 from app.kit import clock
 from app.learning import events, queries
-from app.learning.convert import to_problem
+from app.learning.convert import missing, to_problem
 from app.learning.jobs import Jobs
 from app.learning.schemas import RunIn
 from app.models import Demonstration, Run
 from app.rankings import queries as rankings
 from app.worlds.convert import StoredWorld
-from irl_core import DEFAULT_LEARNERS, LEARNERS
+from irl_core import DEFAULT_LEARNERS, LEARNERS, MissingDemonstrations
 
 CANCELLED = "You cancelled this run."
 
@@ -37,7 +37,8 @@ def learn_later(session: Session, jobs: Jobs, *, world: StoredWorld, visitor_id:
     seed = secrets.randbelow(2**31) if asked.seed is None else asked.seed
     problem = to_problem(world.world, kept, groups, settings=asked.settings, seed=seed)
     for name in names:
-        LEARNERS[name].start(problem)
+        if sentence := missing(problem, LEARNERS[name]):
+            raise MissingDemonstrations(sentence, field="learners")
     run = Run(
         id=str(uuid.uuid4()),
         world_id=world.id,

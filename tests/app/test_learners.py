@@ -17,14 +17,17 @@ from tests.factories import make_world
 ROOT = Path(__file__).resolve().parents[2]
 
 SERVES_PAGES = """
-import sys, warnings
-from tests.conftest import make_settings, open_client
-from app.main import create_app
+import sys
 from pathlib import Path
+from app.main import create_app
+from tests.conftest import make_settings, open_client
+from tests.factories import make_demonstration
 with open_client(create_app(make_settings(Path(sys.argv[1])))) as client:
     world = client.post("/api/v1/worlds", json={"seed": 5}).json()
     pages = ["/", f"/worlds/{world['id']}", f"/worlds/{world['id']}/rank", f"/worlds/{world['id']}/learn", "/docs"]
     assert [client.get(page).status_code for page in pages] == [200] * len(pages)
+    make_demonstration(client, world)
+    assert client.post(f"/api/v1/worlds/{world['id']}/runs", json={"learners": ["meirl"]}).status_code == 202
 print(sorted({"numba", "scipy", "matplotlib", "gymnasium"} & set(sys.modules)))
 """
 
@@ -67,7 +70,7 @@ def test_every_learner_has_a_hue_and_a_shape_of_its_own(name):
     assert name in known
 
 
-def test_serving_pages_loads_no_compiler(settings):
+def test_serving_pages_and_asking_for_a_run_loads_no_compiler(settings):
     done = subprocess.run(
         [sys.executable, "-c", SERVES_PAGES, str(settings.data_dir)],
         capture_output=True,

@@ -105,7 +105,7 @@ export function lacksFinished(demonstrations, { uses_failures }) {
  * @returns {string | null}
  */
 export function missingWith(learner, demonstrations, rankings, unfinished) {
-  if (!lacksFinished(demonstrations, learner)) return learner.missing;
+  if (learner.missing === null || !lacksFinished(demonstrations, learner)) return learner.missing;
   if (unfinished !== "include")
     return `${learner.title} needs a failure that reaches the goal with a total below 0. Yours ended elsewhere: play one, or include them.`;
   const isOrdered = /** @type {const} */ (["success", "failure"]).every((outcome) => {
