@@ -70,6 +70,15 @@ def weigh(states, actions, lengths, arrived, reward, log_policy, log_weights, lo
 def count(states, lengths, weights, visits):
     """Add to `visits` (S,) each episode's visits times its weight, start and end included."""
     for i in range(len(lengths)):
-        if weights[i] > 0.0:
+        if weights[i] != 0.0:
             for t in range(lengths[i] + 1):
                 visits[states[i, t]] += weights[i]
+
+
+@njit(cache=True)
+def add_up(states, lengths, weights, values, sums):
+    """`sums` (n,) becomes Σ_t of `values` (S,) along each episode that has any weight."""
+    for i in range(len(lengths)):
+        if weights[i] > 0.0:
+            for t in range(lengths[i] + 1):
+                sums[i] += values[states[i, t]]

@@ -52,6 +52,22 @@ class Sample:
         squares = float((self.shares**2).sum())
         return 1.0 / squares if squares else 0.0
 
+    def effective_after(self, change: Vector) -> float:
+        """What `effective` would be if the reward changed by this, shape (S,)."""
+        log_ratios = self._sums(change)
+        shares = self.shares * np.exp(log_ratios - log_ratios[self.shares > 0.0].max())
+        return float(shares.sum() ** 2 / (shares**2).sum())
+
+    def curvature(self, *, rounds: int = 8) -> float:
+        """The largest eigenvalue of the covariance of visits, which is the Hessian of log Z; by power iteration."""
+        direction, mean, value = self.visits(), self.visits(), 0.0
+        for _ in range(rounds):
+            direction = direction / (np.sqrt(float((direction**2).sum())) or 1.0)
+            deviations = self._sums(direction) - float(mean @ direction)
+            direction = self._counts(self.shares * deviations)
+            value = float(np.sqrt(float((direction**2).sum())))
+        return value
+
     @property
     def arrived(self) -> bool:
         """Whether there is any weight to speak of."""
@@ -59,12 +75,23 @@ class Sample:
 
     def visits(self, starts: Vector | None = None) -> Vector:
         """μ̂^π, shape (S,); from other starts than the sample was weighed for if `starts`, shape (S,), are given."""
+        return self._counts(self.shares if starts is None else _shares(self.episodes, self.log_weights, starts)[0])
+
+    def _counts(self, weights: Vector) -> Vector:
+        """Σ_i weights_i · (visits of episode i), shape (S,)."""
         from irl_core import _kernels  # noqa: PLC0415 - whoever only reads results needs no compiler
 
-        shares = self.shares if starts is None else _shares(self.episodes, self.log_weights, starts)[0]
         visits: Vector = np.zeros(len(self.log_sums))
-        _kernels.model_free.count(self.episodes.states, self.episodes.lengths, shares, visits)
+        _kernels.model_free.count(self.episodes.states, self.episodes.lengths, weights, visits)
         return visits
+
+    def _sums(self, values: Vector) -> Vector:
+        """Σ_t values(s_t) of each episode that has any weight, shape (n,)."""
+        from irl_core import _kernels  # noqa: PLC0415 - as above
+
+        sums: Vector = np.zeros(len(self.shares))
+        _kernels.model_free.add_up(self.episodes.states, self.episodes.lengths, self.shares, values, sums)
+        return sums
 
 
 def infer_sampled(episodes: Episodes, reward: Vector, policy: Policy, *, starts: Vector) -> Sample:

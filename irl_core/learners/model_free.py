@@ -13,17 +13,30 @@ follows the learned reward. With Ẑ(s, a) the estimated weight of all paths tha
 
 Were Ẑ exact and ε = 0, every weight of a path would be the same (without slip): the better π, the better the next
 estimate. Ẑ(s, a) is a sum of weights over a number of tries, both forgotten by the factor f_k =
-min(0.95, 1 − 1 / (2 + k / 10)) at iteration k: quickly while the reward moves fast. Where nothing has arrived from yet,
-π is half random and half what the demonstrators did there (guided cost learning draws on demonstrations likewise; Finn,
-Levine and Abbeel 2016). The policy shown and executed is Ẑ(s, a) / Σ_b Ẑ(s, b): no model is needed to act, either.
+min(0.95, 1 − 1 / (2 + k / 10)) at iteration k: quickly while the reward moves fast. The first proposal is random play.
+Where nothing has arrived from later on, π is half random and half what the demonstrators did there (guided cost
+learning draws on demonstrations likewise; Finn, Levine and Abbeel 2016). The policy shown and executed is
+Ẑ(s, a) / Σ_b Ẑ(s, b): no model is needed to act, either.
 
-**Descent.** That of IRLFR with the same settings, inference always over paths of at most N steps. One thing differs: it
-starts from R = −log A instead of 0 (as nearly as the features can; `initial_weights` adds to it). At R = 0 long paths
-outnumber all others: P is spread over paths of N steps that barely miss the goal until the end, which no stationary π
-proposes. At −log A, P is what random play gives, the base measure of relative-entropy IRL, and one-hot weights absorb
-the constant. `bench/core/model_free.py` measures the distance to the exact descent from the same start. Iterations end
-as in `descent.py`, but μ̂^π carries noise, so a tight tolerance is seldom met. An iteration in which nothing arrived
-changes no weight and forgets what π had come to.
+**Descent.** That of IRLFR with the same settings, inference always over paths of at most N steps. It differs in four
+ways, which keep R where samples can speak for it, that is, away from ρ ≥ 1, where long paths outnumber all others and
+no sample shows it:
+
+1. It starts from R = −log A − ½ instead of 0 (as nearly as the features can; `initial_weights` adds to it). At −log A,
+   P is what random play gives, the base measure of relative-entropy IRL; ½ more makes long paths rare. One-hot weights
+   absorb the constant.
+2. A change of w_D and w_F is halved until `effective`, on the very same episodes weighed for the changed reward, is at
+   least 0.8 of what it was: a trust region, as in relative-entropy policy search.
+3. λ counts for at least 2C / (1 + αC), C the largest eigenvalue of the Hessian of log Z, the covariance of visits.
+   For r, the part of R − R* along that eigenvector, the two updates in small steps read ẇ_D = −αCr, ẇ_F = (C/λ)r − w_F;
+   their matrix has determinant αC and trace C/λ − 1 − αC, so the fixed point attracts only where λ > C / (1 + αC).
+   Below it failures drive the oscillations that the paper reports as variance. The fixed point itself knows no λ.
+4. An iteration in which fewer than 10 paths count lowers R by 0.1 everywhere instead; one in which nothing arrived
+   leaves R alone and forgets what π had come to.
+
+With demonstrators who know where they go, only the first is ever noticed. `bench/core/model_free.py` measures the
+distance to the exact descent. Iterations end as in `descent.py`, but μ̂^π carries noise, so a tight tolerance is seldom
+met.
 
 A state holds w_D, w_F, shape (K,); λ; `log_worth`, the log of the sums of weights, and `tries`, shape (S·A,). The
 episodes of iteration k are drawn from the seed and k alone, so a state says everything.
@@ -47,8 +60,15 @@ from irl_core.simulators import Simulator, TableSimulator
 from irl_core.weights import feature_counts, start_counts
 
 EXPLORATION: Final = 0.1
-FEW: Final = 30.0
-"""Fewer effective paths than this make a noisy result, and the sentence says so."""
+_BELOW_RANDOM: Final = 0.5
+_OVERLAP: Final = 0.8
+_SHORTEST_STEP: Final = 1e-6
+_LAMBDA_MARGIN: Final = 2.0
+"""Times the bound below which no fixed point attracts: 1 left Boltzmann players in oscillations, 1.5 and 2 did not."""
+_FEW: Final = 10.0
+_DEARER: Final = 0.1
+_NOISY: Final = 0.05
+"""Where fewer of the episodes than this count, the sentence says so."""
 _LONGEST_MEMORY: Final = 0.95
 _CLOSER_LOOK: Final = 10
 """The result is measured on this many times the episodes of an iteration."""
@@ -93,7 +113,7 @@ class ModelFree:
     def start(self, problem: LearningProblem) -> LearningState:
         """The reward under which random play is the path distribution; nothing is known of the world yet."""
         problem.require(self)
-        w_success, features = _base_weights(problem), problem.features
+        w_success, features = _constant(problem, -math.log(problem.mdp.n_actions) - _BELOW_RANDOM), problem.features
         if problem.settings.initial_weights == "uniform":
             rng = np.random.default_rng(np.random.SeedSequence([problem.seed, *b"initial weights"]))
             w_success = w_success + rng.uniform(-1.0, 1.0, features.n_features)
@@ -185,8 +205,8 @@ def proposal(problem: LearningProblem, state: LearningState) -> Policy:
     log_worth = _log_mean_worth(problem, state)
     known, at_random = _is_known(log_worth), 1.0 / problem.mdp.n_actions
     explored = (1.0 - EXPLORATION) * learned_policy(problem, state) + EXPLORATION * at_random
-    guided = (_imitated(problem) + at_random) / 2.0
-    return np.where(known[:, None], explored, guided)
+    unknown = (_imitated(problem) + at_random) / 2.0 if state.iteration else at_random
+    return np.where(known[:, None], explored, unknown)
 
 
 def learned_policy(problem: LearningProblem, state: LearningState) -> Policy:
@@ -197,9 +217,9 @@ def learned_policy(problem: LearningProblem, state: LearningState) -> Policy:
     return normalised
 
 
-def _base_weights(problem: LearningProblem) -> Vector:
-    """Weights of the reward −log A, or of what comes nearest to it, shape (K,)."""
-    wanted: Vector = np.full(problem.mdp.n_states, -math.log(problem.mdp.n_actions))
+def _constant(problem: LearningProblem, value: float) -> Vector:
+    """Weights of a reward that is this everywhere, or of what comes nearest to it, shape (K,)."""
+    wanted: Vector = np.full(problem.mdp.n_states, value)
     if problem.features.name == "one_hot":
         return wanted
     weights: Vector = np.linalg.lstsq(problem.features.dense(), wanted, rcond=None)[0]
@@ -210,7 +230,13 @@ def _iterate(problem: LearningProblem, simulator: Simulator, aims: Aims, state: 
     settings, sample = problem.settings, look(problem, simulator, aims, state)
     if sample.arrived and _gap(problem, aims, state, sample) < settings.tolerance:
         return state.ended(Outcome.CONVERGED)
-    values = _descended(problem, aims, state, sample) if sample.arrived else _nothing_known(problem)
+    if not sample.arrived:
+        values = _nothing_known(problem)
+    elif sample.effective < _FEW:
+        dearer = state.vector("w_success") + _constant(problem, -_DEARER)
+        values = {**_remembering(state, sample).values, "w_success": dearer}
+    else:
+        values = {**_remembering(state, sample).values, **_descended(problem, aims, state, sample)}
     moved = LearningState(state.learner, state.iteration + 1, {**state.values, **values})
     if not max(np.abs(moved.vector("w_success")).max(), np.abs(moved.vector("w_failure")).max()) <= WEIGHT_LIMIT:
         return state.ended(Outcome.DIVERGED)
@@ -218,16 +244,26 @@ def _iterate(problem: LearningProblem, simulator: Simulator, aims: Aims, state: 
 
 
 def _descended(problem: LearningProblem, aims: Aims, state: LearningState, sample: Sample) -> dict[str, Vector | float]:
-    """What the update of IRLFR makes of the state's values."""
-    settings, lam = problem.settings, state.number("lambda")
-    residual = _residual(problem, aims, state, sample)
+    """What the update of IRLFR makes of w_D, w_F and λ, as much of it as the sample can speak for."""
+    settings, curvature = problem.settings, sample.curvature()
+    lam = max(state.number("lambda"), _LAMBDA_MARGIN * curvature / (1.0 + settings.learning_rate * curvature))
     failure_visits = sample.visits(None if np.array_equal(aims.starts, aims.failure_starts) else aims.failure_starts)
+    by_success = -settings.learning_rate * _residual(problem, aims, state, sample)
+    by_failure = (problem.features.counts(failure_visits) - aims.failures) / lam - state.vector("w_failure")
+    share = _trusted_share(sample, problem.features.reward(by_success + by_failure))
     return {
-        **_remembering(state, sample).values,
-        "w_success": state.vector("w_success") - settings.learning_rate * residual,
-        "w_failure": (problem.features.counts(failure_visits) - aims.failures) / lam,
-        "lambda": max(settings.lambda_decay * lam, settings.lambda_min),
+        "w_success": state.vector("w_success") + share * by_success,
+        "w_failure": state.vector("w_failure") + share * by_failure,
+        "lambda": max(settings.lambda_decay * state.number("lambda"), settings.lambda_min),
     }
+
+
+def _trusted_share(sample: Sample, change: Vector) -> float:
+    """The largest of 1, ½, ¼, … of a change of the reward, shape (S,), that the sample can still speak for."""
+    share = 1.0
+    while share > _SHORTEST_STEP and sample.effective_after(share * change) < _OVERLAP * sample.effective:
+        share /= 2.0
+    return share
 
 
 def _residual(problem: LearningProblem, aims: Aims, state: LearningState, sample: Sample) -> Vector:
@@ -314,9 +350,10 @@ def _sentence(problem: LearningProblem, state: LearningState, outcome: Outcome, 
             " learning rate or a larger λ_min steadies it."
         ),
     }[outcome]
-    if effective >= FEW:
+    n_last = _CLOSER_LOOK * problem.settings.episodes
+    if effective >= _NOISY * n_last:
         return ended
     return (
-        f"{ended} Only {effective:.0f} of the last {_CLOSER_LOOK * problem.settings.episodes:,} episodes were like the"
-        " ones that matter, so this is a noisy estimate: allow more episodes."
+        f"{ended} Only {effective:.0f} of the last {n_last:,} episodes were like the ones that matter, so this is a"
+        " noisy estimate: allow more episodes."
     )

@@ -152,7 +152,7 @@ class Settings:
         help="Bayesian IRLFR: whether it sees the colours that people see, and takes red to cost more than blue.",
     )
     preference_l2: float = _number(
-        0.1,
+        1.0,
         symbol="ℓ₂ᵀ",
         group="baseline",
         minimum=1e-9,
@@ -160,7 +160,7 @@ class Settings:
         help="T-REX: how strongly large weights are held back; orders can always be met better by larger ones.",
     )
     score_l2: float = _number(
-        0.1,
+        1.0,
         symbol="ℓ₂ˢ",
         group="baseline",
         minimum=1e-9,
@@ -168,7 +168,7 @@ class Settings:
         help="Score-based IRL: how strongly large weights are held back; there are more squares than scores.",
     )
     cloning_prior: float = _number(
-        0.1,
+        0.001,
         symbol="α_BC",
         group="baseline",
         minimum=1e-9,

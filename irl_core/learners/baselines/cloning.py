@@ -4,9 +4,11 @@ With n(s, a) the number of times a success took a in s, all successes alike, and
 
     π(a | s) = (n(s, a) + α) / (n(s) + α A)    where some success came,    1/A elsewhere,
 
-the mean of a Dirichlet posterior. Nothing is said about states that nobody visited: there it plays at random, which is
-the known weakness of cloning, and the reason to learn rewards instead. It learns no reward (0 everywhere). The
-log-likelihood is Σ θ_i Σ_t log π(a_t | s_t) of the successes. One iteration; the state holds `counts`, n, shape (S·A,).
+the mean of a Dirichlet posterior. α = 0.001: at 0.1 one step in ten goes astray, and on 150 simulated worlds of six
+kinds the copy then earned less than nothing. Nothing is said about states that nobody visited: there it plays at
+random, which is the known weakness of cloning, and the reason to learn rewards instead. It learns no reward (0
+everywhere). The log-likelihood is Σ θ_i Σ_t log π(a_t | s_t) of the successes. One iteration; the state holds `counts`,
+n, shape (S·A,).
 """
 
 from dataclasses import dataclass, field
