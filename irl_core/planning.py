@@ -30,7 +30,7 @@ N is finite because the infinite sum rarely exists (`spectral_radius` tells): no
 Shapes: S states, directions and actions 4, N steps. Ties go to the action with the lowest number.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final, TypeAlias
 
@@ -39,7 +39,8 @@ import numpy as np
 from irl_core import grid
 from irl_core.arrays import BoolVector, Matrix, Policy, Reward, Vector, read_only
 from irl_core.errors import InvalidWorld
-from irl_core.mdp import GridMdp, Mdp, as_mdp
+from irl_core.mdp import GridMdp, Mdp, SparseMdp, as_mdp
+from irl_core.mdp.radius import spectral_radius_of
 from irl_core.types import World
 
 StepActions: TypeAlias = np.ndarray[tuple[int, int], np.dtype[np.int8]]
@@ -148,16 +149,18 @@ def spectral_radius(model: World | Mdp, reward: Reward) -> float:
 
     Only what can be reached from the starts before a terminal state counts. Small grids by the eigenvalues of the
     symmetric e^{R/2} W e^{R/2}, W the number of moves between two squares; others by power iteration in logs, between
-    the Collatz–Wielandt bounds. Where ρ exceeds e^700 it is given as that.
+    the Collatz–Wielandt bounds (`mdp/radius.py` for a SparseMdp). Where ρ exceeds e^700 it is given as that.
     """
     mdp = as_mdp(model)
+    if isinstance(mdp, SparseMdp):
+        return spectral_radius_of(mdp, reward)
     if isinstance(mdp, GridMdp) and mdp.n_states <= _SMALL:
         return _largest_eigenvalue(mdp, reward)
-    inside, log_sums = _log_sums_ahead(mdp)
+    inside, ahead = _on_the_way(mdp), np.ascontiguousarray(mdp.next_states.T)
     log_v = np.where(inside, 0.0, -np.inf)
     low = high = 0.0
     for _ in range(2000):
-        grown = np.where(inside, reward + log_sums(log_v), -np.inf)
+        grown = np.where(inside, reward + _log_sum_exp(log_v[ahead]), -np.inf)
         growth = grown[inside] - log_v[inside]
         low, high = float(growth.min()), float(growth.max())
         if high - low < 1e-6:
@@ -181,22 +184,6 @@ def _largest_eigenvalue(mdp: GridMdp, reward: Reward) -> float:
 def _on_the_way(mdp: GridMdp) -> BoolVector:
     reached: BoolVector = (grid.distances_from(mdp.next_states, mdp.start_states) >= 0) & ~mdp.terminal
     return reached
-
-
-def _log_sums_ahead(mdp: Mdp) -> tuple[BoolVector, Callable[[Vector], Vector]]:
-    """The states on the way, and v ↦ log Σ_{s′} W(s, s′) e^{v(s′)}, shape (S,)."""
-    if isinstance(mdp, GridMdp):
-        ahead = np.ascontiguousarray(mdp.next_states.T)
-        return _on_the_way(mdp), lambda log_v: _log_sum_exp(log_v[ahead])
-    flow, inside = mdp.flow, mdp.reachable & ~mdp.terminal
-
-    def log_sums(log_v: Vector) -> Vector:
-        top = float(log_v.max())
-        with np.errstate(divide="ignore"):
-            summed: Vector = np.log(flow @ np.exp(log_v - top)) + top
-        return summed
-
-    return inside, log_sums
 
 
 def _check(world: World, reward: Reward, horizon: int | None) -> int:

@@ -11,6 +11,7 @@ from irl_core import generate_world, infer
 from irl_core.errors import DivergentPartition, InvalidModel, InvalidReward
 from irl_core.inference.path_log import infer_path_in_logs
 from irl_core.inference.sparse import infer_path_infinite_sparse, infer_path_sparse
+from irl_core.mdp.radius import spectral_radius_of
 from tests.core.examples import SMALL_WORLDS
 from tests.core.naive_models import enumerate_paths, infinite_paths, random_model, sparse_from_dense, spectral_radius
 
@@ -203,3 +204,24 @@ def test_rewards_beyond_the_exponents_are_refused():
     mdp = random_model(0)
     with pytest.raises(InvalidReward, match=r"within ±1e\+12 .* it reaches -1e\+13"):
         infer_path_sparse(mdp, np.full(mdp.n_states, -1e13), horizon=5, starts=mdp.starts)
+
+
+@given(seed=st.integers(0, 2**32), size=st.sampled_from([0.1, 1.0, 5.0]), reach=st.integers(1, 3))
+@settings(max_examples=40, deadline=None)
+def test_the_spectral_radius_is_the_largest_eigenvalue(seed, size, reach):
+    mdp = random_model(seed, n_states=8, n_terminal=2, reach=reach)
+    reward = some_reward(mdp, seed, size=size)
+    assert spectral_radius_of(mdp, reward) == pytest.approx(spectral_radius(mdp, reward), rel=2e-6)
+
+
+def test_by_hand_spectral_radii_of_a_round_and_of_none():
+    """0 → 1 → 0 alternates, each with weight 1: ρ = √(e^{R₀} e^{R₁}). On a straight way nothing comes back."""
+    T = np.zeros((3, 2, 3))
+    T[0, 0, 1] = T[1, 0, 0] = T[1, 1, 2] = 1.0
+    T[0, 1] = T[0, 0] = [0.0, 0.5, 0.5]
+    mdp = sparse_from_dense(T, [False, False, True])
+    assert spectral_radius_of(mdp, np.array([0.4, -3.0, 9.0])) == pytest.approx(math.exp(-1.3), rel=1e-6)
+    assert spectral_radius_of(mdp, np.array([4000.0, 4000.0, 0.0])) == pytest.approx(math.exp(700), rel=1e-9)
+    straight = np.zeros((3, 1, 3))
+    straight[0, 0, 1] = straight[1, 0, 2] = 1.0
+    assert spectral_radius_of(sparse_from_dense(straight, [False, False, True]), np.zeros(3)) == 0.0
