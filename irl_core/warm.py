@@ -1,4 +1,4 @@
-"""Compile what is compiled, now rather than at the first run: `python -m irl_core.warm`.
+"""Compile what is compiled, now rather than at the first run.
 
 Numba keeps its machine code beside the sources (or where NUMBA_CACHE_DIR says), so this takes some seconds once, and
 next to nothing from then on.
@@ -39,7 +39,3 @@ def _small_problem(world: World) -> LearningProblem:
 
 def _actions(walk: list[int]) -> list[int]:
     return [_RIGHT if there == here + 1 else _DOWN for here, there in pairwise(walk)]
-
-
-if __name__ == "__main__":
-    warm_up()
