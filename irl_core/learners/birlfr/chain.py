@@ -8,7 +8,8 @@ shrunk towards 1, the prior's. Afterwards both stay, and every position is a dra
 
 The random numbers of iteration i come from SeedSequence([seed, "birlfr transition", i]), so that how the iterations are
 portioned out changes nothing. Of each draw three numbers are kept (log posterior, mean log cost, expected acceptance),
-of every fifth all costs: enough for intervals, and a state of a 7×7 world stays below 100 kB."""
+of every fifth all costs: enough for intervals, and a state of a 7×7 world stays below 100 kB.
+"""
 
 import math
 from dataclasses import dataclass

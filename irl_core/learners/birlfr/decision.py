@@ -7,7 +7,8 @@ mean):
 
 by value iteration from above. Without slip it is exact after at most S sweeps (Bellman and Ford); with slip it ends
 when no J moves by 1e-10 any more. Ties go to the action with the lowest number. At goals and walls, and where no goal
-can be reached, the policy is uniform, as everywhere."""
+can be reached, the policy is uniform, as everywhere.
+"""
 
 from typing import Final, TypeAlias
 

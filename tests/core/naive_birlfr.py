@@ -1,0 +1,69 @@
+"""The log posterior of Bayesian IRLFR as its formulas read, square by square; of irl_core only plain values."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+
+from tests.naive import step
+
+
+def log_logistic(x):
+    return -np.logaddexp(0.0, -x)
+
+
+def log_sums(problem, cost, worth, beta, kappa):
+    """Log z(s) of every state from which a goal can be reached: the sum over paths of any length, by a dense solve."""
+    mdp = problem.mdp
+    n = mdp.rows * mdp.cols
+    W, b = np.zeros((n, n)), np.zeros(n)
+    for s in cost:
+        for direction in range(4):
+            ahead = step(mdp, s, direction)
+            if ahead in worth:
+                b[s] += math.exp(beta * (worth[ahead] - 1.0))
+            else:
+                W[s, ahead] += math.exp(-beta * cost[ahead] - kappa)
+    with np.errstate(divide="ignore"):
+        return np.log(np.linalg.solve(np.eye(n) - W, b))
+
+
+def log_posterior(problem, squares, prior, q):
+    """With q in the layout of the kernel: squares, class means, class spreads, β and κ twice, worths of more goals."""
+    mdp, n, K = problem.mdp, len(squares), len(prior.class_means)
+    seen = problem.model.reward if K > 1 else np.zeros(mdp.n_states)
+    cost = {}
+    for i, s in enumerate(squares):
+        k = int(K > 1 and seen[s] < -1.0)
+        mean = prior.class_means[k] + prior.class_spread * q[n + k]
+        spread = prior.square_spread * math.exp(prior.spread_of_spread * q[n + K + k])
+        cost[int(s)] = math.exp(mean + spread * q[i])
+    worth = {goal: math.exp(prior.log_worth_spread * q[n + 2 * K + 3 + j]) for j, goal in enumerate(mdp.goals)}
+    worth[mdp.goals[0]] = 1.0
+
+    value, totals = -0.5 * float(q @ q), {}
+    for kind, attempts in (("success", problem.successes), ("failure", problem.failures)):
+        at = n + 2 * K + (2 if kind == "failure" else 0)
+        beta = math.exp(prior.log_beta + prior.log_beta_spread * q[at])
+        kappa = math.log(4.0) + math.exp(prior.log_kappa + prior.log_kappa_spread * q[at + 1])
+        log_z = log_sums(problem, cost, worth, beta, kappa)
+        for one in attempts:
+            entered = [int(s) for s in one.states[1:]]
+            end = entered[-1]
+            paid = sum(cost[s] for s in entered if s not in worth)
+            totals[one.id] = worth.get(end, 0.0) - paid
+            log_path = -beta * paid - kappa * sum(s not in worth for s in entered) - log_z[one.states[0]]
+            log_path += beta * (worth[end] - 1.0) if end in worth else log_z[end]
+            value += prior.choice_power * log_path
+            if end in worth:
+                value += log_logistic((1 if kind == "success" else -1) * totals[one.id] / prior.label_width)
+
+    for outcome, groups in problem.orders.items():
+        shown = [[id_ for id_ in group if id_ in totals] for group in groups]
+        best_first = [group for group in (shown if outcome == "success" else shown[::-1]) if group]
+        for better, worse in pairwise(best_first):
+            for one in better:
+                for other in worse:
+                    chance = math.exp(log_logistic((totals[one] - totals[other]) / prior.rank_width))
+                    value += math.log(prior.flip_rate + (1.0 - 2.0 * prior.flip_rate) * chance)
+    return value
