@@ -46,8 +46,8 @@ DEMONSTRATORS: Mapping[str, Demonstrator] = MappingProxyType(
             Demonstrator("boltzmann", "Boltzmann", "Knows the rewards and prefers what pays.", kinds.boltzmann),
             Demonstrator("myopic", "Myopic", "Sees the rewards of the next three steps.", kinds.myopic),
             Demonstrator("shortest_path", "Shortest path", "Walks straight, blind to colour.", kinds.shortest_path),
-            Demonstrator("wanderer", "Wanderer", "Avoids red, but often steps aside.", kinds.wanderer),
-            Demonstrator("perceptual", "Perceptual", "Plans on noisy impressions of the colours.", kinds.perceptual),
+            Demonstrator("wanderer", "Wanderer", "Sees the shades roughly, and often steps aside.", kinds.wanderer),
+            Demonstrator("perceptual", "Perceptual", "Plans on noisy impressions of the squares.", kinds.perceptual),
         )
     }
 )

@@ -31,6 +31,19 @@ def distances_to_goal(world):
         steps = better
 
 
+def shortest_paths(world):
+    """Every shortest path from the start to a goal, as its (state, action) pairs."""
+    steps = distances_to_goal(world)
+
+    def onward(s):
+        if s in world.goals:
+            return [[]]
+        nearer = [a for a in range(4) if steps[world.next_states[s, a]] == steps[s] - 1]
+        return [[(s, a), *rest] for a in nearer for rest in onward(world.next_states[s, a])]
+
+    return onward(world.start)
+
+
 def best_first_steps(world, costs):
     """Which actions start a cheapest path to a goal, shape (S, 4): the cost of each path to each goal, one by one."""
     price = [0.0 if s in world.goals else np.inf for s in range(world.n_states)]
