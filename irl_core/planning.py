@@ -154,7 +154,7 @@ def spectral_radius(model: World | Mdp, reward: Reward) -> float:
     mdp = as_mdp(model)
     if isinstance(mdp, SparseMdp):
         return spectral_radius_of(mdp, reward)
-    if isinstance(mdp, GridMdp) and mdp.n_states <= _SMALL:
+    if mdp.n_states <= _SMALL:
         return _largest_eigenvalue(mdp, reward)
     inside, ahead = _on_the_way(mdp), np.ascontiguousarray(mdp.next_states.T)
     log_v = np.where(inside, 0.0, -np.inf)

@@ -19,8 +19,8 @@ u(s) = R(s) + max_{s′} (log W(s, s′) + u(s′)). Where that maximum grows be
 states gains by going round, the sum is infinite as well.
 
 Where no terminal state can be reached, at terminal states, and (any length) off the way from the starts, the policy is
-uniform. Weights are kept as mantissa · 2^exponent (`_kernels/sparse.py`); of Z_n every √N-th is stored, the others are
-computed again when the visits come to them.
+uniform. Weights are kept as mantissa · 2^exponent (`_kernels/sparse.py`); where they are many, every √N-th of Z_n
+is stored and the others are computed again when the visits come to them.
 """
 
 import math
@@ -37,6 +37,8 @@ from irl_core.inference.base import Inferred
 from irl_core.mdp.sparse import SparseMdp
 
 MAX_REWARD: Final = 1e12
+_FEW: Final = 1 << 19
+"""Weights that are held without thinking of memory, 16 bytes each: 8 MB."""
 _LN2: Final = math.log(2.0)
 _LN2_HIGH: Final = float.fromhex("0x1.62e42feep-1")
 _LN2_LOW: Final = 1.90821492927058770002e-10
@@ -65,7 +67,7 @@ def infer_path_sparse(mdp: SparseMdp, reward: Vector, *, horizon: int, starts: V
     """
     _check_ends(mdp)
     factor = _as_powers_of_two(reward)
-    every = math.isqrt(horizon - 1) + 1
+    every = _block(mdp, horizon)
     first_rows = _first_rows(mdp, factor, horizon=horizon, every=every)
     here, visits = starts.copy(), starts.copy()
     policy: Policy = np.empty((0, 0))
@@ -118,7 +120,7 @@ def log_weights(mdp: SparseMdp, reward: Vector, *, horizon: int) -> tuple[Vector
     """Log Z_N and log Z_{N−1}, each of shape (S,)."""
     _check_ends(mdp)
     factor = _as_powers_of_two(reward)
-    every = math.isqrt(horizon - 1) + 1
+    every = _block(mdp, horizon)
     first_rows = _first_rows(mdp, factor, horizon=horizon, every=every)
     last = _rows(mdp, factor, first_rows[-1], n_steps=horizon - (len(first_rows) - 1) * every)
     return last.log(-1), last.log(-2)
@@ -152,6 +154,11 @@ def _as_powers_of_two(reward: Vector) -> tuple[Vector, IntVector]:
     halvings = np.rint(reward / _LN2)
     rest = (reward - halvings * _LN2_HIGH) - halvings * _LN2_LOW
     return np.exp(rest), halvings.astype(np.int64)
+
+
+def _block(mdp: SparseMdp, horizon: int) -> int:
+    """Steps whose Z are held at once: all of them while they are few numbers, else √N."""
+    return horizon if horizon * mdp.n_states <= _FEW else math.isqrt(horizon - 1) + 1
 
 
 def _first_rows(
