@@ -7,9 +7,11 @@ i ± width, for one world or for several, and one step of the recursion is
     z′[i] = weight[i] · ((z[i − width] + z[i + width]) + (z[i − lane] + z[i + lane])) + keep[i] · z[i],
 
 a loop that the compiler turns into vector instructions. `weight` is e^R, and 0 in empty squares, walls and goals:
-nothing moves on from there. `keep` is e^R times the number of directions that lead back, and 1 at goals, whose Z stays.
-Worlds never mix, whatever their numbers. Offsets are unsigned: each use of a signed one would first be tested for
-counting from the end. A function that takes arrays one by one, not in a tuple, spares counting their references.
+nothing moves on from there. `loops` counts the directions that lead back, to a square that is `shut`; `keep` is e^R
+times that many, and 1 at goals, whose Z stays. Worlds never mix, whatever their numbers. Offsets are unsigned: each use
+of a signed one would first be tested for counting from the end. Functions take arrays one by one: in tuples, the
+references would be counted at each call. And a loop of more than three or four arrays is split in two, since the
+compiler gives up proving that they do not overlap.
 
 The rows of `chain` are the memory of a block of worlds: Z_n in row n mod `every`; Z_0, Z_every, Z_2·every, … once more
 behind these; then two rows for the forward pass. `shifts[n]` is by how many bits Z_n was scaled down, world by world.
@@ -72,7 +74,8 @@ def path_gradient(
     n_rows, n_cells = every + horizon // every + 1, (n_states // cols + 2) * (cols + 1) * lanes
     chain = np.zeros((n_rows + 2, n_cells))
     here, there = chain[n_rows], chain[n_rows + 1]
-    weight, keep, is_open, total = np.zeros(n_cells), np.zeros(n_cells), np.zeros(n_cells), np.zeros(n_cells)
+    weight, loops, keep, shut = np.zeros(n_cells), np.zeros(n_cells), np.zeros(n_cells), np.zeros(n_cells)
+    share, total = np.zeros(n_cells), np.zeros(n_cells)
     goals = np.empty(n_states * lanes, dtype=np.uint64)
     shifts = np.zeros((horizon + 1, lanes), dtype=np.int64)
     squares = _squares(n_states, cols, lanes)
@@ -80,28 +83,30 @@ def path_gradient(
     zeros = np.zeros(n_worlds, dtype=np.int64)
     for first in range(0, n_worlds, lanes):
         end = min(first + lanes, n_worlds)
-        _clear(weight, keep, is_open, total, chain[0], here, shifts)
+        _clear(weight, keep, shut, total, chain[0], here, shifts)
         n_goals, highest = _lay_out(
-            first, end, rewards, pays, terminal, blocked, squares, log_z, zeros, weight, is_open, chain[0], goals
+            first, end, rewards, pays, terminal, blocked, squares, log_z, zeros, weight, shut, chain[0], goals
         )
-        _set_keep(weight, is_open, goals[:n_goals], keep, width, lane)
+        _set_keep(weight, shut, goals[:n_goals], loops, keep, width, lane)
         look = max(1, int(GROWTH_BITS * _LOG_2 / (highest + _LOG_4)))
         chain[every] = chain[0]
         for n in range(len(steps)):
             if zeros[first] != LOST:
-                met = _policy(chain[n % every], squares, weight, is_open, width, lane, slips[first], steps[n])
+                row = chain[n % every]
+                _set_shares(row, weight, loops, share, width, lane)
+                met = _policy(row, share, squares, weight, shut, width, lane, slips[first], steps[n])
                 zeros[first] = LOST if met == LOST else zeros[first] + met
             _backward(chain, weight, keep, shifts, width, lane, every, look, n, n + 1)
         _backward(chain, weight, keep, shifts, width, lane, every, look, len(steps), horizon)
+        before, last = chain[(horizon - 1) % every], chain[horizon % every]
+        _set_shares(before, weight, loops, share, width, lane)
         for b in range(first, end):
             if zeros[b] != LOST:
                 cells = squares + np.uint64(b - first)
-                before, last = chain[(horizon - 1) % every], chain[horizon % every]
-                met = _policy(before, cells, weight, is_open, width, lane, slips[b], policies[b])
+                met = _policy(before, share, cells, weight, shut, width, lane, slips[b], policies[b])
                 zeros[b] = met if len(steps) == 0 else zeros[b]
-                log_z[b] += _begin(starts[b], cells, weight, last, here, total)
-                for n in range(look, horizon + 1, look):
-                    log_z[b] += _LOG_2 * shifts[n, b - first]
+                bits = shifts[:, b - first].sum() - SCALE_BITS
+                log_z[b] += _begin(starts[b], cells, weight, last, bits, here, total)
                 if log_z[b] == -math.inf:
                     zeros[b] = LOST
         _forward(
@@ -232,10 +237,11 @@ def _squares(n_states: int, cols: int, lanes: int) -> Offsets:
 
 @njit(cache=True, error_model="numpy")
 def _clear(
-    weight: Vector, keep: Vector, is_open: Vector, total: Vector, row: Vector, here: Vector, shifts: IntMatrix
+    weight: Vector, keep: Vector, shut: Vector, total: Vector, row: Vector, here: Vector, shifts: IntMatrix
 ) -> None:
     for i in range(len(row)):
-        weight[i] = keep[i] = is_open[i] = total[i] = row[i] = here[i] = 0.0
+        weight[i] = keep[i] = total[i] = row[i] = here[i] = 0.0
+        shut[i] = 1.0
     for n in range(len(shifts)):
         for k in range(shifts.shape[1]):
             shifts[n, k] = 0
@@ -253,11 +259,11 @@ def _lay_out(
     log_z: Vector,
     zeros: IntVector,
     weight: Vector,
-    is_open: Vector,
+    shut: Vector,
     row: Vector,
     goals: Offsets,
 ) -> tuple[int, float]:
-    """Weights, open squares, and Z_0 / e^{best goal}, whose log is left; answer the number of goals and max R."""
+    """Weights, squares shut, and Z_0 / e^{best goal}, whose log is left; answer the number of goals and max R."""
     n_goals, highest = 0, 0.0
     for b in range(first, end):
         m, cells = min(b, len(terminal) - 1), squares + np.uint64(b - first)
@@ -268,7 +274,7 @@ def _lay_out(
         highest = max(highest, high)
         for state in range(len(cells)):
             cell = cells[state]
-            is_open[cell] = 0.0 if blocked[m, state] else 1.0
+            shut[cell] = 1.0 if blocked[m, state] else 0.0
             if terminal[m, state]:
                 row[cell] = math.ldexp(math.exp(rewards[b, state] - log_z[b]), SCALE_BITS)
                 goals[n_goals] = cell
@@ -293,16 +299,21 @@ def _limits(reward: Vector, terminal: BoolVector, blocked: BoolVector) -> tuple[
 
 
 @njit(cache=True, error_model="numpy")
-def _set_keep(weight: Vector, is_open: Vector, goals: Offsets, keep: Vector, width: np.uint64, lane: np.uint64) -> None:
+def _set_keep(
+    weight: Vector, shut: Vector, goals: Offsets, loops: Vector, keep: Vector, width: np.uint64, lane: np.uint64
+) -> None:
     for i in range(width, np.uint64(len(keep)) - width):
-        keep[i] = weight[i] * (4.0 - _around(is_open, i, width, lane))
+        loops[i] = _around(shut, i, width, lane)
+        keep[i] = weight[i] * loops[i]
     for goal in goals:
         keep[goal] = 1.0
 
 
 @njit(cache=True, error_model="numpy")
-def _begin(starts: Vector, cells: Offsets, weight: Vector, row: Vector, here: Vector, total: Vector) -> float:
-    """Put the starts into the forward pass and its visits; answer Σ_s ρ_0(s) log Z_N(s), on the scale of Z_0."""
+def _begin(
+    starts: Vector, cells: Offsets, weight: Vector, row: Vector, bits: int, here: Vector, total: Vector
+) -> float:
+    """Put the starts into the forward pass and its visits; answer Σ_s ρ_0(s) log Z_N(s), of Z_N = 2^bits · row."""
     log_z = 0.0
     for state in range(len(starts)):
         if starts[state] > 0.0:
@@ -310,18 +321,27 @@ def _begin(starts: Vector, cells: Offsets, weight: Vector, row: Vector, here: Ve
             if row[cell] == 0.0:
                 return -math.inf
             fraction, exponent = math.frexp(row[cell])
-            log_z += starts[state] * (math.log(fraction) + _LOG_2 * (exponent - SCALE_BITS))
+            log_z += starts[state] * (math.log(fraction) + _LOG_2 * (exponent + bits))
             here[cell] = weight[cell] * starts[state] / row[cell]
             total[cell] = weight[cell] * starts[state]
     return log_z
 
 
 @njit(cache=True, error_model="numpy")
+def _set_shares(row: Vector, weight: Vector, loops: Vector, share: Vector, width: np.uint64, lane: np.uint64) -> None:
+    """1 / Σ_d Z(s′_d) from Z of the step after; 0 where nothing moves."""
+    for i in range(width, np.uint64(len(row)) - width):
+        total = _around(row, i, width, lane) + loops[i] * row[i]
+        share[i] = 1.0 / total if weight[i] > 0.0 and total > 0.0 else 0.0
+
+
+@njit(cache=True, error_model="numpy")
 def _policy(
     row: Vector,
+    share: Vector,
     cells: Offsets,
     weight: Vector,
-    is_open: Vector,
+    shut: Vector,
     width: np.uint64,
     lane: np.uint64,
     slip: float,
@@ -329,28 +349,20 @@ def _policy(
 ) -> int:
     """P(a | s) from Z of the step after, (S, 4); how many Z are 0, or LOST where one is too small to count on."""
     aside = slip / 3.0
-    zeros = 0
+    n_zeros, n_lost = 0, 0
     for state in range(len(cells)):
         cell = cells[state]
         z = row[cell]
-        up = row[cell - width] + (1.0 - is_open[cell - width]) * z
-        right = row[cell + lane] + (1.0 - is_open[cell + lane]) * z
-        down = row[cell + width] + (1.0 - is_open[cell + width]) * z
-        left = row[cell - lane] + (1.0 - is_open[cell - lane]) * z
-        total = (up + down) + (left + right)
-        is_free = weight[cell] > 0.0
-        moves = is_free and total > 0.0
-        share = (1.0 - slip - aside) / total if moves else 0.0
-        rest = aside if moves else 0.25
-        policy[state, 0] = share * up + rest
-        policy[state, 1] = share * right + rest
-        policy[state, 2] = share * down + rest
-        policy[state, 3] = share * left + rest
-        if is_free and z < LEAST:
-            if z > 0.0:
-                return LOST
-            zeros += 1
-    return zeros
+        each = share[cell] * (1.0 - slip - aside)
+        rest = aside if share[cell] > 0.0 else 0.25
+        policy[state, 0] = each * (row[cell - width] + shut[cell - width] * z) + rest
+        policy[state, 1] = each * (row[cell + lane] + shut[cell + lane] * z) + rest
+        policy[state, 2] = each * (row[cell + width] + shut[cell + width] * z) + rest
+        policy[state, 3] = each * (row[cell - lane] + shut[cell - lane] * z) + rest
+        if z < LEAST and weight[cell] > 0.0:
+            n_zeros += z == 0.0
+            n_lost += z > 0.0
+    return n_zeros if n_lost == 0 else LOST
 
 
 @njit(cache=True, error_model="numpy")

@@ -114,10 +114,11 @@ def _gradient(
 ) -> IntVector:
     """Run the kernel. It gets copies, so that it is compiled once and not again for arrays that are read-only."""
     mdp = mdps[0]
+    rewards = np.array(rewards, order="C")
     pays = np.minimum(rewards, _HIGHEST_EXPONENT)
     slips = np.array([mdp.slip for mdp in mdps] if len(mdps) > 1 else [mdp.slip] * len(rewards))
     zeros: IntVector = _kernels.stencil.path_gradient(
-        np.array(rewards, order="C"),
+        rewards,
         np.exp(pays, out=pays),
         np.array([mdp.terminal for mdp in mdps]),
         np.array([mdp.blocked for mdp in mdps]),
