@@ -34,13 +34,12 @@ def main(asked: list[str]) -> int:
 
 
 def print_figure(figure: Figure) -> None:
-    spread = f"{min(figure.runs):.3g} … {max(figure.runs):.3g}" if len(figure.runs) > 1 else ""
-    verdict = "met" if figure.met else "MISSED"
-    value = f"{figure.value:.3g} {figure.unit}"
-    print(
-        f"  {figure.name:58} {value:>14}  [{spread:>15}]  target {figure.target:>8}  {verdict:6}  {figure.reference}",
-        flush=True,
-    )
+    verdict = {True: "met", False: "MISSED", None: "not measured"}[figure.met]
+    value = "" if figure.value is None else f"{figure.value:.3g} {figure.unit}"
+    spread = f"[{min(figure.runs):.3g} … {max(figure.runs):.3g}]" if len(figure.runs) > 1 else ""
+    goal = f"goal {figure.goal}" if figure.goal else ""
+    measured = f"{figure.name:68} {value:>12} {spread:>17}  must {figure.target:>9} {verdict:6} {goal:>9}"
+    print(f"  {measured}  {figure.reference}", flush=True)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,11 @@
+"""The learning core: exact gradients, fast and at scale, against references that the benchmark brings itself."""
+
+from collections.abc import Iterator
+
+from bench.core import agreement, cold, finite
+from bench.measure import Figure
+
+
+def measure() -> Iterator[Figure]:
+    for part in (finite, agreement, cold):
+        yield from part.measure()
