@@ -16,6 +16,8 @@ import signal
 import sys
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib.metadata import version
 from multiprocessing import get_context
@@ -101,18 +103,28 @@ def _chunks_here(plan: Plan) -> Iterator[list[WorldOutcome]]:
 
 def _chunks_in_processes(plan: Plan) -> Iterator[list[WorldOutcome]]:
     os.environ.update(ONE_THREAD_EACH)  # for the processes, which inherit it; BLAS reads it when it is loaded
-    pool = ProcessPoolExecutor(plan.n_processes, mp_context=get_context("spawn"), initializer=_leave_interrupts_alone)
+    pool = ProcessPoolExecutor(plan.n_processes, mp_context=get_context("spawn"))
     try:
-        waiting = [pool.submit(run_chunk, plan.spec, *chunk) for chunk in plan.chunks]
+        with _interrupts_ignored():  # a process starts with each of the first submissions, and inherits this
+            waiting = [pool.submit(run_chunk, plan.spec, *chunk) for chunk in plan.chunks]
         for done in as_completed(waiting):
             yield done.result()
+    except BrokenProcessPool:
+        raise ChildProcessError(
+            "One of the processes was ended from outside, perhaps for want of memory; try fewer --processes."
+        ) from None
     finally:
         pool.shutdown(cancel_futures=True)  # at Ctrl-C this waits for the few worlds under way
 
 
-def _leave_interrupts_alone() -> None:
-    """Ctrl-C reaches every process of a terminal; the parent alone decides."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+@contextmanager
+def _interrupts_ignored() -> Iterator[None]:
+    """Ctrl-C reaches every process of a terminal; the parent alone shall decide."""
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def _progress() -> Progress:
