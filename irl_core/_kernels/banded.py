@@ -12,12 +12,12 @@ from numba import njit
 
 from irl_core._kernels.lines import GOAL, ON_THE_WAY, WALL, mark_the_way
 
-LANES = 16
+LANES = 32
 _SMALLEST, _LARGEST = 1e-200, 1e200
 """Beyond these z and x are left to the solver in potentials."""
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def solve_in_potentials(kind, reward, u, starts, y, x):
     """Solve M y = (1 off the way, 0 on it) and Mᵀ x = starts / y by LU. False if a pivot is not positive."""
     rows, cols = kind.shape
@@ -37,7 +37,7 @@ def solve_in_potentials(kind, reward, u, starts, y, x):
     return True
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _fill_row(kind, reward, u, band, i, j):
     rows, cols = kind.shape
     s = i * cols + j
@@ -52,7 +52,7 @@ def _fill_row(kind, reward, u, band, i, j):
             band[s, cols + (k - i) * cols + m - j] -= math.exp(reward[i, j] + u[k, m] - u[i, j])
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _factorise(band, b):
     n = len(band)
     for i in range(n):
@@ -69,7 +69,7 @@ def _factorise(band, b):
     return True
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _solve(band, y, b):
     n = len(band)
     for i in range(n):
@@ -81,7 +81,7 @@ def _solve(band, y, b):
         y[i] /= band[i, b]
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _solve_transposed(band, x, b):
     n = len(band)
     for i in range(n):
@@ -93,14 +93,14 @@ def _solve_transposed(band, x, b):
             x[k] -= band[i, b + k - i] * x[i]
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def mark_each_way(kinds, starts):
     """`mark_the_way` for B grids, (B, rows, cols)."""
     for world in range(len(kinds)):
         mark_the_way(kinds[world], starts[world])
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def solve_worlds(kinds, pays, inverse, starts, slips, log_partition, policy, visits):
     """Fill the three results of B worlds, (B,), (B, S, 4), (B, S); answers which of them can be trusted, (B,).
 
@@ -142,7 +142,7 @@ def solve_worlds(kinds, pays, inverse, starts, slips, log_partition, policy, vis
     return trusted
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def fill_lane(kind, pay, inverse, band, z, lane):
     """K into band[:, :, lane] and its right-hand side into z: the e^R of goals, and of goals beside."""
     rows, cols = kind.shape
@@ -169,47 +169,51 @@ def fill_lane(kind, pay, inverse, band, z, lane):
             band[s, 0, lane] = inverse[i, j] - loops
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def factorise_lanes(band, is_positive):
     """LDLᵀ in place: D in band[:, 0], L beside. A pivot that is not positive is noted for its lane and made 1."""
-    n, width, _ = band.shape
+    n, width, lanes = band.shape
     is_positive[:] = True
-    column, factor = np.empty((width, LANES)), np.empty(LANES)
+    column, factor = np.empty((width, lanes)), np.empty(lanes)
     for j in range(n):
         height = min(width, n - j)
-        for lane in range(LANES):
+        for lane in range(lanes):
             if not band[j, 0, lane] > 0.0:
                 is_positive[lane] = False
                 band[j, 0, lane] = 1.0
-        for i in range(height):
-            for lane in range(LANES):
-                column[i, lane] = band[j, i, lane]
+        column[:height] = band[j, :height]
         for i in range(1, height):
-            for lane in range(LANES):
-                factor[lane] = column[i, lane] / column[0, lane]
-                band[j, i, lane] = factor[lane]
+            below, pivot, of_row = band[j, i], column[0], column[i]
+            for lane in range(lanes):
+                factor[lane] = of_row[lane] / pivot[lane]
+                below[lane] = factor[lane]
             for m in range(i, height):
-                for lane in range(LANES):
-                    band[j + i, m - i, lane] -= factor[lane] * column[m, lane]
+                reduced, of_column = band[j + i, m - i], column[m]
+                for lane in range(lanes):
+                    reduced[lane] -= factor[lane] * of_column[lane]
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def solve_lanes(band, x):
     """Solve L D Lᵀ x = x in place, (S, LANES)."""
-    n, width, _ = band.shape
+    n, width, lanes = band.shape
     for j in range(n):
+        here = x[j]
         for i in range(1, min(width, n - j)):
-            for lane in range(LANES):
-                x[j + i, lane] -= band[j, i, lane] * x[j, lane]
+            below, factor = x[j + i], band[j, i]
+            for lane in range(lanes):
+                below[lane] -= factor[lane] * here[lane]
     for j in range(n - 1, -1, -1):
-        for lane in range(LANES):
-            x[j, lane] /= band[j, 0, lane]
+        here, pivot = x[j], band[j, 0]
+        for lane in range(lanes):
+            here[lane] /= pivot[lane]
         for i in range(1, min(width, n - j)):
-            for lane in range(LANES):
-                x[j, lane] -= band[j, i, lane] * x[j + i, lane]
+            below, factor = x[j + i], band[j, i]
+            for lane in range(lanes):
+                here[lane] -= factor[lane] * below[lane]
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _read_lane(kind, pay, inverse, z, x, lane, policy, visits, slip):
     """Visits and policy of one world; False if a number left the range in which it keeps its digits."""
     rows, cols = kind.shape

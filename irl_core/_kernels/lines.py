@@ -31,7 +31,7 @@ _STEP, _SWEEPS = 32, 16
 """A strip has twice as many rows as the step from one to the next; at most so many sweeps at each visit."""
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def mark_the_way(kind, starts):
     """Turn each FREE square that a start (starts > 0) leads to into ON_THE_WAY."""
     rows, cols = kind.shape
@@ -54,7 +54,7 @@ def mark_the_way(kind, starts):
                 n += 1
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def first_potential(kind, reward, u):
     """A lower bound of log z: Gauss–Seidel in logs from −∞, in rows forth and back until no more squares have a way.
 
@@ -90,7 +90,7 @@ def first_potential(kind, reward, u):
     return True
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _gains_back_and_forth(kind, reward, i, j):
     rows, cols = kind.shape
     right = j + 1 < cols and kind[i, j + 1] == ON_THE_WAY and reward[i, j] + reward[i, j + 1] >= 0.0
@@ -98,7 +98,7 @@ def _gains_back_and_forth(kind, reward, i, j):
     return right or below
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _log_z_here(kind, reward, u, i, j):
     """Log Σ_{s′} z(s′) / (e^{−R} − loops); NaN where the divisor is not positive."""
     rows, cols = kind.shape
@@ -124,7 +124,7 @@ def _log_z_here(kind, reward, u, i, j):
     return reward[i, j] + top + math.log(total / rest)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def prepare(kind, reward, u, up, right, down, left, pivot):
     """Fill the five arrays from the potential u. False if a pivot is not positive: the sum over paths is infinite."""
     rows, cols = kind.shape
@@ -148,7 +148,7 @@ def prepare(kind, reward, u, up, right, down, left, pivot):
     return True
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _weights(kind, reward, u, up, right, down, left, i, j):
     """W(s, s′) = e^{R(s) + u(s′) − u(s)} in the four directions; answers how many of them lead nowhere."""
     rows, cols = kind.shape
@@ -168,7 +168,7 @@ def _weights(kind, reward, u, up, right, down, left, i, j):
     return n_loops
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def settle(y, c, up, right, down, left, transposed, tolerance, max_passes):
     """Pass over M y = c (or the transposed system), from the y given, until it rests, in strips down and up in turn.
 
@@ -195,7 +195,7 @@ def settle(y, c, up, right, down, left, transposed, tolerance, max_passes):
     return max_passes, change, ratio
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _sweep(y, c, up, right, down, left, transposed, first, end):
     """A symmetric line Gauss–Seidel sweep of the rows first … end − 1, downwards and back; answers the change."""
     rows, cols = c.shape
@@ -218,7 +218,7 @@ def _sweep(y, c, up, right, down, left, transposed, first, end):
     return change / size
 
 
-@njit(cache=True, fastmath=_FUSED)
+@njit(cache=True, error_model="numpy", fastmath=_FUSED)
 def _solve(line, y, right, left):
     """T y = line by two recursions, y ≤ 1e250 throughout; answers the largest change and the largest value."""
     cols = len(line)
@@ -236,7 +236,7 @@ def _solve(line, y, right, left):
     return change, size
 
 
-@njit(cache=True, fastmath=_FUSED)
+@njit(cache=True, error_model="numpy", fastmath=_FUSED)
 def _solve_transposed(line, y, right, left):
     """The same for the transpose of T, in ξ."""
     cols = len(line)
@@ -252,7 +252,7 @@ def _solve_transposed(line, y, right, left):
     return change, size
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def path_policy(kind, log_z, slip, policy):
     """P(a | s) = Σ_d T(d | a) q(d | s) with q(d | s) ∝ z(s′_d), shape (rows, cols, 4); uniform off the way."""
     rows, cols = kind.shape

@@ -20,7 +20,7 @@ _SLACK = 1e-13
 _SMALLEST_STEP = 1e-10
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def fit_worlds(kinds, counts, starts, first_weight, l2, tolerance, max_iterations, weights, iterations, gaps, values):
     """Fill weights (B, S), iterations, gaps and log-likelihoods (B,). `kinds`, `counts`, `starts`: (B, rows, cols)."""
     n_worlds, rows, cols = kinds.shape
@@ -94,7 +94,7 @@ def fit_worlds(kinds, counts, starts, first_weight, l2, tolerance, max_iteration
                     tried[s, lane] = weights[world, s] + size[lane] * step[s, lane]
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _prepare_lane(kind, starts, tried, band, z, lane):
     rows, cols = kind.shape
     pay, inverse = np.empty((rows, cols)), np.empty((rows, cols))
@@ -105,7 +105,7 @@ def _prepare_lane(kind, starts, tried, band, z, lane):
     fill_lane(kind, pay, inverse, band, z, lane)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _adjoint_source(starts, z, x, is_positive, lane):
     cols = starts.shape[1]
     for s in range(len(z)):
@@ -113,7 +113,7 @@ def _adjoint_source(starts, z, x, is_positive, lane):
         x[s, lane] = begins / z[s, lane] if begins > 0.0 and is_positive[lane] else 0.0
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _value(counts, starts, tried, z, l2, lane):
     """Σ ρ_0 log z − w·μ̃ + l2/2 |w|²; infinite where numbers left the floats."""
     cols = starts.shape[1]
@@ -126,7 +126,7 @@ def _value(counts, starts, tried, z, l2, lane):
     return value if value < np.inf else np.inf
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _visits_and_law(kind, tried, z, x, visits, law, lane):
     """Visits μ, and the chance of each of the moves UP, RIGHT, DOWN, LEFT, STAY from each square."""
     rows, cols = kind.shape
@@ -151,7 +151,7 @@ def _visits_and_law(kind, tried, z, x, visits, law, lane):
                     visits[k * cols + m, lane] += x[s, lane] * z[k * cols + m, lane]
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _gradient(counts, tried, visits, l2, gradient, lane):
     """g = μ − μ̃ + l2 w; answers ‖g‖∞."""
     cols, gap = counts.shape[1], 0.0
@@ -161,7 +161,7 @@ def _gradient(counts, tried, visits, l2, gradient, lane):
     return gap
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _newton_matrix(kinds, starts, visits, law, l2, band, first, n_live):
     """A = Σ_s μ_s Var_s + l2 (1 − P)ᵀ(1 − P), both as sums over the pairs of moves from s."""
     n, cols = len(visits), kinds.shape[2]
@@ -187,7 +187,7 @@ def _newton_matrix(kinds, starts, visits, law, l2, band, first, n_live):
                     band[min(to, other), abs(to - other), lane] += l2 * both - spread
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _newton_source(gradient, law, cols, x, lane):
     """−(1 − Pᵀ) g."""
     n = len(gradient)
@@ -200,7 +200,7 @@ def _newton_source(gradient, law, cols, x, lane):
                 x[s + offsets[d], lane] += law[s, d, lane] * gradient[s, lane]
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _newton_step(gradient, law, cols, eta, step, lane):
     """δw = (1 − P) η; answers the slope g·δw."""
     slope = 0.0
