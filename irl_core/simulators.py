@@ -87,7 +87,8 @@ class TableSimulator:
 
     def _draw_starts(self, n_episodes: int, rng: np.random.Generator) -> IntVector:
         sums = self._starts.cumsum()
-        return np.searchsorted(sums, rng.random(n_episodes) * sums[-1], side="right").astype(np.int64)
+        drawn: IntVector = np.searchsorted(sums, rng.random(n_episodes) * sums[-1], side="right").astype(np.int64)
+        return drawn
 
 
 @final

@@ -212,9 +212,9 @@ def proposal(problem: LearningProblem, state: LearningState) -> Policy:
 def learned_policy(problem: LearningProblem, state: LearningState) -> Policy:
     """Ẑ(s, a) / Σ_b Ẑ(s, b), shape (S, A); uniform where nothing has arrived from."""
     log_worth = _log_mean_worth(problem, state)
-    policy = np.exp(log_worth - log_worth.max(axis=1, keepdims=True))
-    normalised: Policy = policy / policy.sum(axis=1, keepdims=True)
-    return normalised
+    policy: Policy = np.exp(log_worth - log_worth.max(axis=1, keepdims=True))
+    policy /= policy.sum(axis=1, keepdims=True)
+    return policy
 
 
 def _constant(problem: LearningProblem, value: float) -> Vector:
@@ -222,7 +222,7 @@ def _constant(problem: LearningProblem, value: float) -> Vector:
     wanted: Vector = np.full(problem.mdp.n_states, value)
     if problem.features.name == "one_hot":
         return wanted
-    weights: Vector = np.linalg.lstsq(problem.features.dense(), wanted, rcond=None)[0]
+    weights: Vector = np.linalg.lstsq(problem.features.dense(), wanted, rcond=None)[0].astype(np.float64)
     return weights
 
 

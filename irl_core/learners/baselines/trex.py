@@ -122,7 +122,7 @@ def preferences_of(problem: LearningProblem) -> Preferences:
     good, bad = ([row[one.id] for one in kept] for kept in (problem.successes, problem.failures))
     found = [*_along(orders[0]), *_along(failures_best_first), *((better, worse) for better in good for worse in bad)]
     pairs = np.zeros((len(found), len(attempts)))
-    for p, (better, worse) in enumerate(found):
+    for p, (better, worse) in enumerate(sorted(found)):
         pairs[p, better], pairs[p, worse] = 1.0, -1.0
     counts = np.array([_counts(problem, one) for one in attempts])
     return Preferences(counts, counts @ counts.T, pairs)
