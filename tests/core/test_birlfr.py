@@ -19,7 +19,9 @@ from irl_core.learners.birlfr import Birlfr
 from irl_core.learners.birlfr.chain import Chain
 from irl_core.learners.birlfr.decision import best_actions
 from irl_core.learners.birlfr.model import Model
+from irl_core.mdp import GridMdp
 from irl_core.planning import soft_plan
+from irl_core.trajectories import demonstration_of
 from irl_core.types import Ranking, World
 from tests.core import naive_birlfr
 from tests.core.examples import DOWN, LEFT, RIGHT, UP, attempt, make_world
@@ -251,6 +253,19 @@ def test_large_grids_and_states_of_other_worlds_are_refused():
     state = LEARNER.start(tiny_problem())
     with pytest.raises(IrlError, match="this problem has"):
         LEARNER.advance(problem_of("myopic"), state, iterations=1)
+
+
+def test_a_grid_without_rewards_and_with_several_starts_will_do():
+    starts = np.array([0.5, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    mdp = GridMdp(3, 3, (8,), start=starts)
+    ours = [
+        demonstration_of(mdp, [0, 3, 6, 7, 8], [DOWN, DOWN, RIGHT, RIGHT], id="a", outcome="success"),
+        demonstration_of(mdp, [2, 1, 4, 7, 8], [LEFT, DOWN, DOWN, RIGHT], id="b", outcome="failure"),
+    ]
+    found = learn(LEARNER, LearningProblem.build(mdp, ours, settings=Settings(iterations=100)))
+    assert found.reward[[1, 4]].sum() < found.reward[[3, 6]].sum()
+    with pytest.raises(InvalidModel, match="learns in grids"):
+        LEARNER.start(LearningProblem.build(mdp.to_sparse(), ours))
 
 
 def test_with_slip_the_plan_is_the_stochastic_shortest_path():
