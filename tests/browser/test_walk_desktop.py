@@ -23,11 +23,14 @@ def test_a_person_plays_ranks_learns_and_compares(page: Page, base_url: str) -> 
     walk.confirm_order(page)
     page.locator("#learn").click()
 
+    expect(page.locator('[data-part="more"]')).to_be_visible()
+    learners = [*walk.preselected(page), "trex"]
+    walk.add_learner(page, "trex")
     assert walk.learn(page) >= 3, "fewer than three frames before the end"
     expect(page).to_have_url(re.compile(r"/runs/[0-9a-f-]{36}$"))
     run_id = page.url.rpartition("/")[2]
     page.locator('[data-part="compare"]').click()
-    check_comparison(page, base_url, run_id)
+    check_comparison(page, base_url, run_id, learners)
 
 
 def check_mouse_and_keyboard_rank(page: Page) -> None:
@@ -48,12 +51,13 @@ def check_mouse_and_keyboard_rank(page: Page) -> None:
     assert weights == ["0.500000", "0.333333", "0.166667"]
 
 
-def check_comparison(page: Page, base_url: str, run_id: str) -> None:
+def check_comparison(page: Page, base_url: str, run_id: str, learners: list[str]) -> None:
     """Every figure of the table is the API's, in order of place."""
     comparison = walk.ContextClient(page, base_url).get(f"/runs/{run_id}/comparison")
     rows = page.locator('[data-part="rows"] tr')
-    expect(rows).to_have_count(6)
-    assert {entry["who"] for entry in comparison["entries"]} == {"human", "optimal", *journey.LEARNERS}
+    expect(rows).to_have_count(len(learners) + 2)
+    assert {entry["who"] for entry in comparison["entries"]} == {"human", "optimal", *learners}
+    assert set(learners) > set(journey.LEARNERS), "the paper's four are among them"
     for row, entry in zip(rows.all(), comparison["entries"], strict=True):
         expect(row).to_have_attribute("data-who", entry["who"])
         place, mean, expected, greedy, share, episodes = row.locator("td").all_text_contents()

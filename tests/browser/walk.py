@@ -126,6 +126,19 @@ def confirm_order(page: Page) -> None:
     expect(page.locator("#rank")).to_have_attribute("data-confirmed", "true")
 
 
+def preselected(page: Page) -> list[str]:
+    """The learners that the learn page on screen chooses by itself."""
+    return [one["name"] for one in page_data(page)["learners"] if one["preselected"]]
+
+
+def add_learner(page: Page, name: str) -> None:
+    """Choose one of the others, by keyboard; it gets a board like everybody."""
+    page.locator('[data-part="more"]').evaluate("more => { more.open = true; }")
+    page.locator(f'input[name="more-learner"][value="{name}"]').focus()
+    page.keyboard.press("Space")
+    expect(page.locator(f'.agent-panel[data-learner="{name}"] input[name="learner"]')).to_be_checked()
+
+
 def learn(page: Page) -> int:
     """Press Learn and watch; return how many different states of the frames were seen before the end."""
     place = page.locator("learn-page")
@@ -139,6 +152,14 @@ def learn(page: Page) -> int:
         page.wait_for_timeout(30)
     expect(place).to_have_attribute("data-status", "done", timeout=LEARNING_MS)
     return len(seen)
+
+
+def learn_to_the_end(page: Page) -> None:
+    """Press Learn and wait; some learners are too quick to be watched."""
+    earlier = page.locator("learn-page").get_attribute("data-run") or ""
+    page.locator('[data-action="learn"]').click()
+    expect(page.locator("learn-page")).not_to_have_attribute("data-run", earlier)
+    expect(page.locator("learn-page")).to_have_attribute("data-status", "done", timeout=LEARNING_MS)
 
 
 def prepared(page: Page, address: str, *, seed: int = 5) -> tuple[str, str]:
