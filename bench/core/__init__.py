@@ -2,10 +2,10 @@
 
 from collections.abc import Iterator
 
-from bench.core import agreement, cold, finite
+from bench.core import agreement, cold, finite, infinite
 from bench.measure import Figure
 
 
 def measure() -> Iterator[Figure]:
-    for part in (finite, agreement, cold):
+    for part in (finite, infinite, agreement, cold):
         yield from part.measure()
