@@ -12,6 +12,7 @@ from typing import Final
 
 import numpy as np
 
+from irl_core.arrays import Reward
 from irl_core.demonstrators import MOST_ATTEMPTS, Demonstrated, demonstrate, demonstrator_named
 from irl_core.errors import DivergentPartition, InvalidSettings, InvalidWorld, MissingDemonstrations
 from irl_core.evaluation import expected_return, greedy_plan, optimum, rollouts
@@ -89,8 +90,13 @@ def _learned(spec: ExperimentSpec, world: World, problem: LearningProblem, name:
         gap=result.gap,
         mean_return=math.fsum(episode.total for episode in episodes) / len(episodes),
         expected_return=expected_return(world, result.policy),
-        greedy_return=expected_return(world, greedy_plan(world, result.reward)),
+        greedy_return=_greedy_return(world, result.reward),
     )
+
+
+def _greedy_return(world: World, reward: Reward) -> float:
+    """What the best plan under the learned reward earns; NaN where the reward is the same everywhere."""
+    return math.nan if np.ptp(reward) == 0.0 else expected_return(world, greedy_plan(world, reward))
 
 
 def _run_to_the_end(problem: LearningProblem, name: str) -> LearningResult:

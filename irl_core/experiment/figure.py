@@ -5,6 +5,7 @@ reward; whiskers: 95 % intervals; the dotted and dashed lines are the human's me
 and Ito's (told apart with any colour vision), and each family of learners has a mark of its own besides.
 """
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -68,6 +69,8 @@ def _draw_estimate(
     panel: "Axes", line: float, share: Estimate, colour: str, mark: str, *, filled: bool, named: bool
 ) -> None:
     """One mark with its whiskers; a mark left of the panel is drawn at its edge, as an arrow."""
+    if not math.isfinite(share.value):
+        return
     is_outside = share.value < _LEFT
     panel.errorbar(
         max(share.value, _LEFT + 0.03),

@@ -1,5 +1,6 @@
 """An experiment as tables for people: in Markdown, or one by one for whoever prints them."""
 
+import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from statistics import fmean
@@ -80,7 +81,9 @@ def _share_of(name: str, measure: Measure) -> Callable[[KindSummary], Estimate]:
 
 
 def _differences(summaries: Sequence[KindSummary], name: str) -> Table | None:
-    others = [one for one in summaries[0].learners if one.name != name]
+    others = [
+        one for one in summaries[0].learners if one.name != name and any(_plans(kind, one.name) for kind in summaries)
+    ]
     if not others:
         return None
     return Table(
@@ -114,14 +117,19 @@ def _learners(kind: KindSummary) -> Table:
     )
 
 
+def _plans(kind: KindSummary, name: str) -> bool:
+    """Whether a learner has learned a reward to plan with."""
+    return math.isfinite(kind.learner(name).share["greedy"].value)
+
+
 def _learner_row(kind: KindSummary, one: LearnerSummary, *, has_reference: bool) -> tuple[str, ...]:
-    wins = kind.wins["soft"][kind.index(one.name)][kind.index(_REFERENCE)] if has_reference else float("nan")
+    wins = kind.wins["soft"][kind.index(one.name)][kind.index(_REFERENCE)] if has_reference else math.nan
     return (
         one.title,
         _figure(one.mean_return["episodes"]),
         _figure(one.mean_place["soft"]),
-        _figure(one.mean_place["greedy"]),
-        _figure(float("nan") if one.name == _REFERENCE else wins),
+        _figure(one.mean_place["greedy"] if _plans(kind, one.name) else math.nan),
+        _figure(math.nan if one.name == _REFERENCE else wins),
         f"{100 * one.above_human:.1f} %",
         _figure(one.median_gap, digits=3),
         ", ".join(f"{outcome.replace('_', ' ')} {n}" for outcome, n in sorted(one.outcomes.items())),
@@ -129,14 +137,13 @@ def _learner_row(kind: KindSummary, one: LearnerSummary, *, has_reference: bool)
 
 
 def _wins(kind: KindSummary, measure: Measure) -> Table:
+    taking_part = [i for i, one in enumerate(kind.learners) if measure != "greedy" or _plans(kind, one.name)]
     titles = [one.title for one in kind.learners]
+    wins = kind.wins[measure]
     return Table(
         title=f"{title_of(kind.demonstrator)}: who beats whom, {_HOW[measure]}",
-        header=("row beats column", *titles),
-        rows=tuple(
-            (title, *("" if other == row else _figure(share) for other, share in enumerate(shares)))
-            for row, (title, shares) in enumerate(zip(titles, kind.wins[measure], strict=True))
-        ),
+        header=("row beats column", *(titles[i] for i in taking_part)),
+        rows=tuple((titles[i], *("" if i == j else _figure(wins[i][j]) for j in taking_part)) for i in taking_part),
         note="Share of worlds, half of the ties counted.",
         is_detail=True,
     )

@@ -275,4 +275,15 @@ def test_where_nobody_fails_the_search_for_worlds_ends_in_words(monkeypatch):
 def test_every_learner_can_take_part(name):
     settings = Settings(iterations=5)
     [outcome] = run_chunk(ExperimentSpec(learners=(name,), rows=4, cols=4, settings=settings), "mixture", 0, 1)
-    assert all(math.isfinite(outcome.learners[name].score(measure)) for measure in ("episodes", "soft", "greedy"))
+    assert all(math.isfinite(outcome.learners[name].score(measure)) for measure in ("episodes", "soft"))
+
+
+def test_who_learns_no_reward_has_no_plan(tmp_path):
+    spec = replace(SPEC, learners=("meirl", "random", "trex"), settings=Settings(iterations=5))
+    [summary] = summarise(run_chunk(spec, "mixture", 0, 3))
+    assert math.isnan(summary.learner("random").share["greedy"].value)
+    assert math.isfinite(summary.learner("random").share["soft"].value)
+    greedy_wins = next(table for table in tables([summary]) if "who beats whom, best plan" in table.title)
+    assert greedy_wins.header == ("row beats column", "MEIRL", "T-REX (linear)")
+    assert "nan" not in markdown([summary])
+    draw_figure([summary], tmp_path / "figure.svg")
