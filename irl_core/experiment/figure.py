@@ -14,21 +14,26 @@ from irl_core.experiment.bootstrap import Estimate
 from irl_core.experiment.summary import KindSummary
 from irl_core.experiment.tables import title_of
 from irl_core.learners import LEARNERS
+from irl_core.learners.base import Family
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _COLUMNS: Final = 3
 _LEFT: Final = -0.5
-_PAPER, _OURS, _BASELINE = ("#0072B2", "o"), ("#D55E00", "D"), ("#009E73", "s")
-_MARKS: Final = {"paper": _PAPER, "ours": _OURS, "baseline": _BASELINE}
+_MARKS: Final = {  # colour, mark and name of each family
+    "paper": ("#0072B2", "o", "the paper's"),
+    "ours": ("#D55E00", "D", "ours"),
+    "baseline": ("#009E73", "s", "neighbourhood"),
+}
 _STYLE: Final[dict[Any, Any]] = {"svg.hashsalt": "irlfr", "svg.fonttype": "path", "font.size": 9, "axes.titlesize": 10}
 
 
 def draw_figure(summaries: Sequence[KindSummary], path: Path) -> None:
     """Draw the picture and write it to `path` (SVG, PNG or PDF by its suffix); the same figures give the same file."""
     import matplotlib as mpl  # noqa: PLC0415 - only who draws waits for it
-    from matplotlib.figure import Figure  # noqa: PLC0415
+    from matplotlib.figure import Figure  # noqa: PLC0415 - as above
 
     n_columns = min(_COLUMNS, len(summaries))
     n_rows = -(-len(summaries) // n_columns)
@@ -42,9 +47,24 @@ def draw_figure(summaries: Sequence[KindSummary], path: Path) -> None:
             _draw_panel(panel, summary)
         for panel in panels[-1]:
             panel.set_xlabel("share of the optimum")
-        handles, labels = panels[0, 0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower center", ncols=len(labels), frameon=False)
+        _draw_legend(figure, panels[0, 0], summaries[0])
         figure.savefig(path, metadata={"Date": None} if path.suffix == ".svg" else None)
+
+
+def _draw_legend(figure: "Figure", panel: "Axes", summary: KindSummary) -> None:
+    """Lines and fillings, from a panel; then the families that took part."""
+    from matplotlib.lines import Line2D  # noqa: PLC0415 - as above
+
+    handles, labels = panel.get_legend_handles_labels()
+    for family in dict.fromkeys(_family(one.name) for one in summary.learners):
+        colour, mark, name = _MARKS[family]
+        handles.append(Line2D([], [], color=colour, marker=mark, linestyle="none"))
+        labels.append(name)
+    figure.legend(handles, labels, loc="outside lower center", ncols=4, frameon=False)
+
+
+def _family(name: str) -> Family:
+    return LEARNERS[name].family if name in LEARNERS else "baseline"
 
 
 def _draw_panel(panel: "Axes", summary: KindSummary) -> None:
@@ -52,7 +72,7 @@ def _draw_panel(panel: "Axes", summary: KindSummary) -> None:
     panel.axvline(summary.human.value, color="0.35", linestyle=":", linewidth=1.2, label="human, mean")
     panel.axvline(summary.best_attempt.value, color="0.35", linestyle="--", linewidth=1.2, label="human, best attempt")
     for line, one in enumerate(summary.learners):
-        colour, mark = _MARKS[LEARNERS[one.name].family if one.name in LEARNERS else "baseline"]
+        colour, mark, _ = _MARKS[_family(one.name)]
         named = line == 0
         _draw_estimate(panel, line - 0.14, one.share["soft"], colour, mark, filled=False, named=named)
         _draw_estimate(panel, line + 0.14, one.share["greedy"], colour, mark, filled=True, named=named)
