@@ -7,6 +7,7 @@ from irl_core.checks import shown
 from irl_core.errors import InvalidSettings
 from irl_core.learners.base import Family, Frame, Learner, LearningResult, LearningState, Outcome, Posterior
 from irl_core.learners.baselines import BehaviouralCloning, RandomPlay, ScoreIrl, Trex
+from irl_core.learners.birlfr import Birlfr
 from irl_core.learners.irlf import Irlf
 from irl_core.learners.irlfr import Irlfr
 from irl_core.learners.irlr import Irlr
@@ -20,7 +21,7 @@ LEARNERS: Mapping[str, Learner] = MappingProxyType(
         learner.name: learner
         for learner in (
             *(Meirl(), Irlr(), Irlf(), Irlfr()),
-            ModelFree(),
+            *(Birlfr(), ModelFree()),
             *(Trex(), BehaviouralCloning(), ScoreIrl(), RandomPlay()),
         )
     }

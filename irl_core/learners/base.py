@@ -27,7 +27,8 @@ class Outcome(StrEnum):
 class Learner(Protocol):
     """An algorithm. It keeps nothing itself: what it has learned so far is in the state, the rest in the problem.
 
-    `start` raises MissingDemonstrations if the problem lacks what it needs. `advance` takes up to `iterations` more
+    `start` raises MissingDemonstrations if the problem lacks what it needs; for one that `takes_anything` a single
+    attempt is enough, be it a success or a failure. `advance` takes up to `iterations` more
     iterations, fewer if learning ends (`state.outcome` is then set). However the iterations are portioned out, and
     whether or not a state went through JSON on its way, the result is the same to the last bit.
     """
@@ -46,6 +47,8 @@ class Learner(Protocol):
     def uses_failures(self) -> bool: ...
     @property
     def uses_scores(self) -> bool: ...
+    @property
+    def takes_anything(self) -> bool: ...
     @property
     def references(self) -> tuple[str, ...]: ...
 

@@ -24,6 +24,7 @@ class Irlf:
     uses_ranking: bool = field(default=False, init=False)
     uses_failures: bool = field(default=True, init=False)
     uses_scores: bool = field(default=False, init=False)
+    takes_anything: bool = field(default=False, init=False)
     references: tuple[str, ...] = field(
         default=(
             "Shiarlis, Messias, Whiteson: Inverse reinforcement learning from failure. AAMAS 2016.",

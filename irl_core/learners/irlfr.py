@@ -26,6 +26,7 @@ class Irlfr:
     uses_ranking: bool = field(default=True, init=False)
     uses_failures: bool = field(default=True, init=False)
     uses_scores: bool = field(default=False, init=False)
+    takes_anything: bool = field(default=False, init=False)
     references: tuple[str, ...] = field(
         default=(
             "Inverse reinforcement learning through failure and ranking (the IRLFR paper), Sec. III-D.",

@@ -23,6 +23,7 @@ class Meirl:
     uses_ranking: bool = field(default=False, init=False)
     uses_failures: bool = field(default=False, init=False)
     uses_scores: bool = field(default=False, init=False)
+    takes_anything: bool = field(default=False, init=False)
     references: tuple[str, ...] = field(
         default=("Ziebart, Maas, Bagnell, Dey: Maximum entropy inverse reinforcement learning. AAAI 2008.",),
         init=False,

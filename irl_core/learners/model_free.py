@@ -31,8 +31,8 @@ no sample shows it:
    For r, the part of R − R* along that eigenvector, the two updates in small steps read ẇ_D = −αCr, ẇ_F = (C/λ)r − w_F;
    their matrix has determinant αC and trace C/λ − 1 − αC, so the fixed point attracts only where λ > C / (1 + αC).
    Below it failures drive the oscillations that the paper reports as variance. The fixed point itself knows no λ.
-4. An iteration in which fewer than 10 paths count lowers R by 0.1 everywhere instead; one in which nothing arrived
-   leaves R alone and forgets what π had come to.
+4. An iteration in which fewer than 2 % of the episodes count lowers R by 0.1 everywhere instead; one in which nothing
+   arrived leaves R alone and forgets what π had come to.
 
 With demonstrators who know where they go, only the first is ever noticed. `bench/core/model_free.py` measures the
 distance to the exact descent. Iterations end as in `descent.py`, but μ̂^π carries noise, so a tight tolerance is seldom
@@ -65,7 +65,7 @@ _OVERLAP: Final = 0.8
 _SHORTEST_STEP: Final = 1e-6
 _LAMBDA_MARGIN: Final = 2.0
 """Times the bound below which no fixed point attracts: 1 left Boltzmann players in oscillations, 1.5 and 2 did not."""
-_FEW: Final = 10.0
+_FEW: Final = 0.02
 _DEARER: Final = 0.1
 _NOISY: Final = 0.05
 """Where fewer of the episodes than this count, the sentence says so."""
@@ -100,6 +100,7 @@ class ModelFree:
     uses_ranking: bool = field(default=True, init=False)
     uses_failures: bool = field(default=True, init=False)
     uses_scores: bool = field(default=False, init=False)
+    takes_anything: bool = field(default=False, init=False)
     references: tuple[str, ...] = field(
         default=(
             "Inverse reinforcement learning through failure and ranking (the IRLFR paper), Sec. III-D.",
@@ -232,7 +233,7 @@ def _iterate(problem: LearningProblem, simulator: Simulator, aims: Aims, state: 
         return state.ended(Outcome.CONVERGED)
     if not sample.arrived:
         values = _nothing_known(problem)
-    elif sample.effective < _FEW:
+    elif sample.effective < _FEW * settings.episodes:
         dearer = state.vector("w_success") + _constant(problem, -_DEARER)
         values = {**_remembering(state, sample).values, "w_success": dearer}
     else:

@@ -34,6 +34,8 @@ class Needs(Protocol):
     def uses_ranking(self) -> bool: ...
     @property
     def uses_failures(self) -> bool: ...
+    @property
+    def takes_anything(self) -> bool: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,19 +110,13 @@ class LearningProblem:
 
     def missing(self, learner: Needs) -> str | None:
         """What this learner still needs, in words for a person, or None if it can start."""
+        if learner.takes_anything:
+            return None if self.successes or self.failures else self._no_attempt(learner)
         if not self.successes:
             return f"{learner.title} needs at least one success: an attempt that reaches the goal and totals 0 or more."
         if learner.uses_failures and not self.failures:
             return self._no_failure(learner)
-        if not learner.uses_ranking:
-            return None
-        unplaced = self._unplaced("success", self.successes)
-        if unplaced:
-            return f"{learner.title} needs your successes in order: {unplaced}."
-        unplaced = self._unplaced("failure", self.failures)
-        if learner.uses_failures and unplaced:
-            return f"{learner.title} needs your failures in order: {unplaced}."
-        return None
+        return self._missing_order(learner) if learner.uses_ranking else None
 
     def require(self, learner: Needs) -> None:
         """Raise MissingDemonstrations unless this learner can start."""
@@ -154,16 +150,31 @@ class LearningProblem:
             return f"none of the {len(kept)} has a place yet"
         return f"{n_unplaced} of the {len(kept)} {'has' if n_unplaced == 1 else 'have'} no place yet"
 
+    def _missing_order(self, learner: Needs) -> str | None:
+        unplaced = self._unplaced("success", self.successes)
+        if unplaced:
+            return f"{learner.title} needs your successes in order: {unplaced}."
+        unplaced = self._unplaced("failure", self.failures)
+        if learner.uses_failures and unplaced:
+            return f"{learner.title} needs your failures in order: {unplaced}."
+        return None
+
+    def _no_attempt(self, learner: Needs) -> str:
+        return f"{learner.title} needs at least one attempt that reaches the goal." + self._how_to_include()
+
     def _no_failure(self, learner: Needs) -> str:
         if self.n_left_out == 0:
             return (
                 f"{learner.title} needs at least one failure: an attempt that reaches the goal and totals less than 0."
             )
+        return f"{learner.title} needs a failure that reaches the goal and totals less than 0." + self._how_to_include()
+
+    def _how_to_include(self) -> str:
+        """What to do about failures that were left out, if there are any."""
+        if self.n_left_out == 0:
+            return ""
         never = "One failure" if self.n_left_out == 1 else f"{self.n_left_out} failures"
-        return (
-            f"{learner.title} needs a failure that reaches the goal and totals less than 0. {never} ended elsewhere; to"
-            ' learn from such too, set "unfinished_failures" to "include".'
-        )
+        return f' {never} ended elsewhere; to learn from such too, set "unfinished_failures" to "include".'
 
 
 def _orders(

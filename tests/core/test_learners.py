@@ -379,9 +379,23 @@ class TestWhatIsMissing:
         problem = small_problem()
         empty = LearningProblem.build(problem.world, problem.failures)
         for name, learner in LEARNERS.items():
+            if learner.takes_anything:
+                continue
             assert "needs at least one success" in missing(empty, learner)
             with pytest.raises(MissingDemonstrations, match="needs at least one success"):
                 learn(name, empty)
+
+    def test_who_takes_anything_learns_from_a_single_attempt_but_not_from_none(self):
+        problem = small_problem(iterations=3)
+        alone = LearningProblem.build(problem.world, problem.failures[:1], settings=problem.settings)
+        assert np.isfinite(learn("birlfr", alone).reward).all()
+        lost = simulate(problem.world, [LEFT], attempt_id="e")
+        nothing = LearningProblem.build(problem.world, [lost])
+        assert 'One failure ended elsewhere; to learn from such too, set "unfinished_' in missing(
+            nothing, LEARNERS["birlfr"]
+        )
+        with pytest.raises(MissingDemonstrations, match="at least one attempt that reaches the goal"):
+            learn("birlfr", nothing)
 
     def test_learners_from_failure_need_one(self):
         problem = small_problem()

@@ -36,6 +36,7 @@ class BehaviouralCloning:
     uses_ranking: bool = field(default=False, init=False)
     uses_failures: bool = field(default=False, init=False)
     uses_scores: bool = field(default=False, init=False)
+    takes_anything: bool = field(default=False, init=False)
     references: tuple[str, ...] = field(
         default=(
             "Pomerleau: Efficient training of artificial neural networks for autonomous navigation. 1991.",

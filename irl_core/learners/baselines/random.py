@@ -22,6 +22,7 @@ class RandomPlay:
     uses_ranking: bool = field(default=False, init=False)
     uses_failures: bool = field(default=False, init=False)
     uses_scores: bool = field(default=False, init=False)
+    takes_anything: bool = field(default=False, init=False)
     references: tuple[str, ...] = field(default=(), init=False)
 
     def start(self, problem: LearningProblem) -> LearningState:

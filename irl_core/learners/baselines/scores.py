@@ -40,6 +40,7 @@ class ScoreIrl:
     uses_ranking: bool = field(default=False, init=False)
     uses_failures: bool = field(default=True, init=False)
     uses_scores: bool = field(default=True, init=False)
+    takes_anything: bool = field(default=False, init=False)
     references: tuple[str, ...] = field(
         default=(
             "El Asri, Piot, Geist, Laroche, Pietquin: Score-based inverse reinforcement learning. AAMAS 2016.",

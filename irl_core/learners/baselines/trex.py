@@ -59,6 +59,7 @@ class Trex:
     uses_ranking: bool = field(default=True, init=False)
     uses_failures: bool = field(default=True, init=False)
     uses_scores: bool = field(default=False, init=False)
+    takes_anything: bool = field(default=False, init=False)
     references: tuple[str, ...] = field(
         default=(
             (

@@ -17,7 +17,6 @@ from typing import Final, final
 import numpy as np
 
 from irl_core.arrays import Vector
-from irl_core.errors import MissingDemonstrations
 from irl_core.learners.base import Family, Frame, LearningResult, LearningState, Outcome
 from irl_core.learners.birlfr.chain import N_DRAWS, Chain
 from irl_core.learners.birlfr.decision import executed_visits, plan, posterior_of
@@ -45,6 +44,7 @@ class Birlfr:
     uses_ranking: bool = field(default=True, init=False)
     uses_failures: bool = field(default=True, init=False)
     uses_scores: bool = field(default=False, init=False)
+    takes_anything: bool = field(default=True, init=False)
     references: tuple[str, ...] = field(
         default=(
             "Ramachandran, Amir: Bayesian inverse reinforcement learning. IJCAI 2007.",
@@ -58,8 +58,7 @@ class Birlfr:
 
     def start(self, problem: LearningProblem) -> LearningState:
         """The chain at the prior's medians. Any success or failure will do; ranks and failures only add to it."""
-        if not problem.successes and not problem.failures:
-            raise MissingDemonstrations(f"{self.title} needs at least one attempt.", field="learners")
+        problem.require(self)
         chain = Chain.at_start(_model(problem), seed=problem.seed, iterations=problem.settings.iterations)
         return chain.to_state(self.name, None)
 
