@@ -9,6 +9,8 @@ import pytest
 from scipy.optimize import brentq, minimize
 
 from irl_core import (
+    Frame,
+    InvalidSettings,
     IrlError,
     LearningProblem,
     LearningResult,
@@ -180,7 +182,8 @@ class TestAll:
         assert learn(ALL[name], problem).to_json() == learn(ALL[name], shuffled).to_json()
 
     def test_frames_show_the_way_and_results_have_the_shapes_of_the_api(self, name):
-        problem, frames = make_problem(), []
+        problem = make_problem()
+        frames: list[Frame] = []
         result = learn(ALL[name], problem, on_frame=frames.append, frame_every=1)
         assert [frame.iteration for frame in frames] == list(range(result.iterations + 1)) or name == "trex"
         assert frames[-1].iteration == result.iterations
@@ -226,3 +229,13 @@ def test_costs_keep_every_difference_between_squares_on_the_way():
     assert costs[:8].max() < 0
     assert costs[8] == reward[8]
     np.testing.assert_allclose(report.as_costs(problem, np.zeros(9))[:8], -1.0)
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("episodes", 9), ("episodes", 50.5), ("preference_l2", 0), ("score_l2", float("nan")), ("cloning_prior", -1)],
+)
+def test_a_setting_out_of_range_is_refused_by_name(name, value):
+    with pytest.raises(InvalidSettings, match=name) as refusal:
+        Settings.from_json({name: value})
+    assert refusal.value.field == name
