@@ -117,7 +117,7 @@ def set_up(*, dev: bool = False) -> None:
         once("project", ["pyproject.toml", "hatch_build.py"], install_project)
         if dev:  # `run` serves pages at once; there the worker compiles when it starts
             kernels = sorted(str(path.relative_to(ROOT)) for path in ROOT.glob("irl_core/_kernels/*.py"))
-            compile_them = [PYTHON, "-c", "import irl_core; irl_core.warm_up()"]
+            compile_them: Command = [PYTHON, "-c", "import irl_core; irl_core.warm_up()"]
             once("compiled kernels", kernels, lambda: call("compiled kernels", compile_them))
 
 
