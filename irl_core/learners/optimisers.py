@@ -55,7 +55,7 @@ def _newton(f: Objective, weights: Vector) -> Vector:
             field="optimiser",
         )
     value, gradient = f(weights)
-    direction: Vector = -np.linalg.solve(_hessian(f, weights), gradient).reshape(-1)
+    direction = np.asarray(-np.linalg.solve(_hessian(f, weights), gradient), dtype=np.float64).reshape(-1)
     direction *= min(1.0, _LONGEST_STEP / max(float(np.abs(direction).max()), 1e-300))
     return _backtracked(f, weights, direction, value=value, slope=float(direction @ gradient))
 
