@@ -34,7 +34,7 @@ no sample shows it:
 4. An iteration in which fewer than 2 % of the episodes count lowers R by 0.1 everywhere instead; one in which nothing
    arrived leaves R alone and forgets what π had come to.
 
-With demonstrators who know where they go, only the first is ever noticed. `bench/core/model_free.py` measures the
+With demonstrators who know where they go little but the first is noticed. `bench/core/model_free.py` measures the
 distance to the exact descent. Iterations end as in `descent.py`, but μ̂^π carries noise, so a tight tolerance is seldom
 met.
 
