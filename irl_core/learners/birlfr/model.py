@@ -67,7 +67,7 @@ PRIOR: Final = {
     "label_width": 0.05,  # w_l
     "rank_width": 0.03,  # w_r
     "flip_rate": 0.03,  # ε
-    "choice_power": 0.35,  # ν
+    "choice_power": 0.7,  # ν
     "log_beta": float(np.log(5.0)),
     "log_beta_spread": 1.5,
     "log_kappa": float(np.log(0.5)),
