@@ -7,6 +7,7 @@ import subprocess
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -23,18 +24,25 @@ _SCRIPT = Path(__file__).parent / "beside_imitation.py"
 _NOT_HERE = f"not measured here: {IMITATION_PYTHON} names no Python that has imitation 1.0.1"
 
 
+class Imitation(NamedTuple):
+    """How many times as long as the dense reference `imitation` takes, with this release of SciPy."""
+
+    times_dense: float
+    scipy: str
+
+
 def measure() -> Iterator[Figure]:
     world = draw_playable_world(5)
     reward = np.random.default_rng(1).normal(-1.0, 1.0, world.n_states)
     model = dense_model(world)
     slow = partial(dense.gradient, model, reward, horizon=HORIZON)
-    slower = against_imitation(world, reward)
+    imitation = beside_imitation(world, reward)
 
     def one() -> object:
         return infer_path(world.mdp, reward, horizon=HORIZON, starts=world.mdp.starts, step_policies=True)
 
     title = f"7×7, N = {HORIZON}, one world, policies of all steps"
-    yield from _rows(title, interleaved(slow, one), slower, must=(20, 100), goal=(36, 186))
+    yield from _rows(title, interleaved(slow, one), imitation, must=(20, 100), goal=(36, 186))
 
     mdps = [generate_world(seed).mdp for seed in range(N_WORLDS)]
     rewards = np.random.default_rng(2).normal(-1.0, 1.0, (N_WORLDS, world.n_states))
@@ -44,7 +52,7 @@ def measure() -> Iterator[Figure]:
 
     each = [(theirs, ours / N_WORLDS) for theirs, ours in interleaved(slow, many)]
     title = f"7×7, N = {HORIZON}, {N_WORLDS} worlds, per world"
-    yield from _rows(title, each, slower, must=(100, 500), goal=(545, 2800))
+    yield from _rows(title, each, imitation, must=(100, 500), goal=(545, 2800))
     yield large()
 
 
@@ -65,21 +73,22 @@ def dense_model(world: World) -> dense.Model:
     return dense.model_of(world.next_states.astype(float), goals=list(world.goals), slip=world.slip, start=world.start)
 
 
-def against_imitation(world: World, reward: np.ndarray) -> list[float]:
-    """How many times as long as the dense reference `imitation` takes, or nothing where there is none."""
+def beside_imitation(world: World, reward: np.ndarray) -> Imitation | None:
+    """How long `imitation` takes, or None where there is none."""
     python = os.environ.get(IMITATION_PYTHON)
     if not python:
-        return []
+        return None
     problem = {"reward": reward.tolist(), "next_states": world.next_states.tolist(), "goals": list(world.goals)}
     problem |= {"start": world.start, "horizon": HORIZON}
     done = subprocess.run([python, str(_SCRIPT)], input=json.dumps(problem), capture_output=True, text=True, check=True)
-    return [float(line) for line in done.stdout.split()]
+    told = json.loads(done.stdout)
+    return Imitation(statistics.median(told["ratios"]), told["scipy"])
 
 
 def _rows(
     title: str,
     pairs: list[tuple[float, float]],
-    slower: list[float],
+    imitation: Imitation | None,
     *,
     must: tuple[float, float],
     goal: tuple[float, float],
@@ -87,9 +96,12 @@ def _rows(
     ratios = _ratios(pairs)
     reference = _dense_reference(pairs)
     yield at_least(f"{title}, against dense", ratios, target=must[0], goal=goal[0], unit="×", reference=reference)
-    times = statistics.median(slower) if slower else 0.0
-    said = f"imitation 1.0.1, {times:.3g} times the dense one" if slower else _NOT_HERE
-    runs = [times * ratio for ratio in ratios] if slower else []
+    runs, said = [], _NOT_HERE
+    if imitation:
+        runs = [imitation.times_dense * ratio for ratio in ratios]
+        said = (
+            f"imitation 1.0.1 with SciPy {imitation.scipy}, {imitation.times_dense:.3g} times as long as the dense one"
+        )
     yield at_least(f"{title}, against imitation", runs, target=must[1], goal=goal[1], unit="×", reference=said)
 
 

@@ -210,7 +210,7 @@ def _scale_down(row: Vector, shift: IntVector) -> None:
         shift[k] = max(0, math.frexp(top)[1] - SCALE_BITS)
         if shift[k] > 0:
             for i in range(k, len(row), lanes):
-                row[i] *= math.ldexp(1.0, -shift[k])
+                row[i] *= math.ldexp(1.0, -int(shift[k]))
 
 
 @njit(cache=True, error_model="numpy")
@@ -221,7 +221,7 @@ def _follow_scale(here: Vector, shift: IntVector, zeros: IntVector) -> None:
         top = 0.0
         for i in range(k, len(here), lanes):
             top = max(top, here[i])
-            here[i] *= math.ldexp(1.0, -shift[k])
+            here[i] *= math.ldexp(1.0, -int(shift[k]))
         if top > 2.0**FORWARD_BITS:
             zeros[k] = LOST
 
