@@ -14,7 +14,7 @@ SEEK_THE_VISITS: Final = frozenset({"meirl", "irlr", "irlf", "irlfr", "model_fre
 
 @runtime_checkable
 class KnowsItsNeeds(Protocol):
-    """A learner that itself says what it misses, since it needs less than what it uses."""
+    """A learner with limits of its own, which the problem does not know."""
 
     def missing(self, problem: LearningProblem) -> str | None: ...
 
@@ -66,6 +66,7 @@ def describe_learners(names: Iterable[str] = tuple(LEARNERS)) -> list[dict[str, 
             "uses_ranking": LEARNERS[name].uses_ranking,
             "uses_failures": LEARNERS[name].uses_failures,
             "uses_scores": LEARNERS[name].uses_scores,
+            "takes_anything": LEARNERS[name].takes_anything,
             "seeks_visits": name in SEEK_THE_VISITS,
         }
         for name in names

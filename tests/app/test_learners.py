@@ -12,7 +12,7 @@ from app.learning import worker
 from irl_core import DEFAULT_LEARNERS, LEARNERS, Settings
 from tests.app.test_learning import ask, played  # noqa: F401 - a fixture
 from tests.app.test_pages import island
-from tests.factories import make_world
+from tests.factories import make_demonstration, make_world
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -39,7 +39,7 @@ def test_the_learn_page_tells_of_every_learner_who_is_preselected_and_what_is_mi
     assert [one["name"] for one in learners if one["preselected"]] == list(DEFAULT_LEARNERS)
     for one in learners:
         learner = LEARNERS[one["name"]]
-        facts = ("title", "summary", "family", "uses_ranking", "uses_failures", "uses_scores")
+        facts = ("title", "summary", "family", "uses_ranking", "uses_failures", "uses_scores", "takes_anything")
         assert {fact: one[fact] for fact in facts} == {fact: getattr(learner, fact) for fact in facts}
         assert one["seeks_visits"] is (one["family"] == "paper" or one["name"] == "model_free")
         assert one["missing"].startswith(learner.title)
@@ -52,6 +52,18 @@ def test_the_learn_page_tells_what_each_setting_is_for_and_whether_it_is_whole(c
     assert all(one["group"] for one in settings.values())
     assert settings["iterations"]["whole"]
     assert not settings["learning_rate"]["whole"]
+
+
+def test_a_world_too_large_for_a_learner_is_said_before_a_run_is_asked_for(client):
+    world = make_world(client, rows=21, cols=21)
+    make_demonstration(client, world)
+    page = island(client.get(f"/worlds/{world['id']}/learn"))
+    missing = {one["name"]: one["missing"] for one in page["learners"]}
+    assert missing["meirl"] is None
+    assert "up to 400" in missing["birlfr"]
+    refused = ask(client, world, learners=["meirl", "birlfr"])
+    assert refused.status_code == 422
+    assert refused.json()["error"]["message"] == missing["birlfr"]
 
 
 def test_the_comparison_page_tells_of_the_learners_of_its_run_alone(client, played, settings):  # noqa: F811

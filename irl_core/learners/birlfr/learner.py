@@ -17,10 +17,11 @@ from typing import Final, final
 import numpy as np
 
 from irl_core.arrays import Vector
+from irl_core.errors import InvalidModel
 from irl_core.learners.base import Family, Frame, LearningResult, LearningState, Outcome
 from irl_core.learners.birlfr.chain import N_DRAWS, Chain
 from irl_core.learners.birlfr.decision import executed_visits, plan, posterior_of
-from irl_core.learners.birlfr.model import Model
+from irl_core.learners.birlfr.model import Model, grid_of
 from irl_core.learners.problem import LearningProblem
 from irl_core.planning import spectral_radius
 from irl_core.weights import feature_counts, start_counts
@@ -55,6 +56,14 @@ class Birlfr:
         ),
         init=False,
     )
+
+    def missing(self, problem: LearningProblem) -> str | None:
+        """Why it cannot learn from this, in words for a person: it lacks attempts, or the grid is too large."""
+        try:
+            grid_of(problem)
+        except InvalidModel as error:
+            return error.message
+        return problem.missing(self)
 
     def start(self, problem: LearningProblem) -> LearningState:
         """The chain at the prior's medians. Any success or failure will do; ranks and failures only add to it."""

@@ -98,14 +98,15 @@ export function lacksFinished(demonstrations, { uses_failures }) {
 /**
  * What a learner misses once the setting "unfinished failures" is taken into account; null when it can start. (The page
  * was made with the default, to leave them out.)
- * @param {Pick<LearnerInfo, "title" | "uses_failures" | "uses_ranking" | "missing">} learner
+ * @param {Pick<LearnerInfo, "title" | "uses_failures" | "uses_ranking" | "takes_anything" | "missing">} learner
  * @param {Demonstration[]} demonstrations
  * @param {Rankings} rankings
  * @param {string} unfinished "leave_out" or "include"
  * @returns {string | null}
  */
 export function missingWith(learner, demonstrations, rankings, unfinished) {
-  if (learner.missing === null || !lacksFinished(demonstrations, learner)) return learner.missing;
+  const { missing, takes_anything } = learner;
+  if (missing === null || takes_anything || !lacksFinished(demonstrations, learner)) return missing;
   if (unfinished !== "include")
     return `${learner.title} needs a failure that reaches the goal with a total below 0. Yours ended elsewhere: play one, or include them.`;
   const isOrdered = /** @type {const} */ (["success", "failure"]).every((outcome) => {

@@ -55,6 +55,7 @@
  * @property {boolean} uses_ranking
  * @property {boolean} uses_failures
  * @property {boolean} uses_scores
+ * @property {boolean} takes_anything one attempt is enough, of whatever kind
  * @property {boolean} seeks_visits its iterations close the gap to the play
  * @property {boolean} preselected it learns unless somebody says otherwise
  * @property {string | null} missing why it cannot run yet, as a sentence
