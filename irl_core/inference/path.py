@@ -26,7 +26,7 @@ a goal Z(goal) Σ_d f_{t−1}(s′_d). Both passes are sums and products of posi
 scale of its row, and changes log Z_N by f_{N−n}(s) / e^{R(s)} times as much: a forward pass that stays below 2^1000
 shows that nothing was lost, and the kernel watches for that. The policy is also given where no path from a start comes:
 there Z must be 0 for want of a way, or larger than 2^−800. Where either fails, and for rewards above 136, below −600 or
-of goals 600 apart, the recursion runs in logs instead (`path_log`), some 50 times as long.
+of goals 600 apart, the recursion runs in logs instead (`path_log`), 60 to 180 times as long.
 
 **Memory.** Up to 4 MB of Z_n are kept as they are; beyond that every √N-th, and the rest is computed again.
 
