@@ -26,7 +26,10 @@ _SAME_SHARE: Final = 1e-9
 
 @dataclass(frozen=True)
 class Entry:
-    """One line of a comparison; None where a figure does not exist (the human has no policy to expect from)."""
+    """One line of a comparison; None where a figure does not exist.
+
+    The human has no policy to expect from, and who learned a policy and no reward has no plan for it.
+    """
 
     who: str
     title: str
@@ -123,7 +126,14 @@ def _human_entry(episodes: Sequence[Rollout]) -> Entry:
     return replace(_entry(HUMAN, episodes, expected=0.0, greedy=0.0), expected_return=None, greedy_return=None)
 
 
-def _entry(who: str, episodes: Sequence[Rollout], *, expected: float, greedy: float) -> Entry:
+def _greedy_return(world: World, result: LearningResult) -> float | None:
+    """What the best plan under the learned reward earns; None for who learned a policy and no reward."""
+    if np.ptp(result.reward) == 0.0:
+        return None
+    return expected_return(world, greedy_plan(world, result.reward))
+
+
+def _entry(who: str, episodes: Sequence[Rollout], *, expected: float, greedy: float | None) -> Entry:
     totals = np.array([episode.total for episode in episodes])
     n, mean = len(totals), math.fsum(totals) / len(totals)
     return Entry(

@@ -117,3 +117,13 @@ def test_the_optimum_slips_too():
 )
 def test_places_are_shared_and_counted_on(scores, expected):
     assert places(scores, tolerance=1e-9) == expected
+
+
+def test_who_learned_no_reward_has_no_greedy_return():
+    problem = make_problem()
+    entries = compare(
+        problem.world, problem.demonstrations, [learn("bc", problem), learn("irlr", problem)], seed=1
+    ).entries
+    greedy = {one.who: one.greedy_return for one in entries}
+    assert greedy["bc"] is None
+    assert greedy["irlr"] is not None
