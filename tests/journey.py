@@ -3,7 +3,7 @@
     python tests/journey.py http://127.0.0.1:8000 [--seed 5] [--size 7]
 
 Standard library only; nothing of app or irl_core is imported. It makes a world, plays three successes and three
-failures found by its own planner, ranks them, runs the four learners, follows the event stream with one reconnection,
+failures found by its own planner, ranks them, runs five learners, follows the event stream with one reconnection,
 and recomputes from the formulas: totals, places, weights, the optimum, the human's mean, and what each returned policy
 is worth. Everything must agree to 1e-9.
 """
@@ -20,7 +20,7 @@ from collections.abc import Iterator
 from http.cookiejar import CookieJar
 from typing import Any
 
-LEARNERS = ("meirl", "irlr", "irlf", "irlfr")
+LEARNERS = ("meirl", "irlr", "irlf", "irlfr", "birlfr")
 MOVES = ((-1, 0), (0, 1), (1, 0), (0, -1))  # up, right, down, left
 TOLERANCE = 1e-9
 
@@ -256,7 +256,7 @@ def rank(client: Client, world_id: str, successes: list[Json], failures: list[Js
 
 
 def learn(client: Client, world_id: str) -> Json:
-    """Run the four learners; leave the stream once in the middle and resume it."""
+    """Run the learners; leave the stream once in the middle and resume it."""
     run = client.post(f"/worlds/{world_id}/runs", {"learners": list(LEARNERS), "settings": {}, "seed": 7})
     path = f"/runs/{run['id']}/events"
     seen: list[tuple[str, str, Json]] = []
