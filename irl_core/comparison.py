@@ -97,9 +97,8 @@ def compare(
     for result in results:
         name = result.learner
         episodes[name] = _play(world, result.policy, name, seed=seed, n_episodes=n_episodes)
-        greedy = expected_return(world, greedy_plan(world, result.reward))
         expected = expected_return(world, result.policy)
-        entries.append(_entry(name, episodes[name], expected=expected, greedy=greedy))
+        entries.append(_entry(name, episodes[name], expected=expected, greedy=_greedy_return(world, result)))
     episodes[OPTIMAL] = _play(world, best_plan, OPTIMAL, seed=seed, n_episodes=n_episodes)
     entries.append(_entry(OPTIMAL, episodes[OPTIMAL], expected=best, greedy=best))
     return Comparison(seed, world.horizon, _placed(entries, optimum=best), episodes)
