@@ -2,10 +2,10 @@
 
 from collections.abc import Iterator
 
-from bench.core import agreement, cold, finite, infinite
+from bench.core import agreement, cold, finite, infinite, model_free
 from bench.measure import Figure
 
 
 def measure() -> Iterator[Figure]:
-    for part in (finite, infinite, agreement, cold):
+    for part in (finite, infinite, agreement, cold, model_free):
         yield from part.measure()
