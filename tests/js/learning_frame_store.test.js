@@ -52,15 +52,22 @@ test("columns are aligned over all learners, with null where one has no frame", 
   ]);
 });
 
-test("the colour scale of a learner is the largest size it ever showed", () => {
-  const store = storeOf(frame("meirl", 0), frame("meirl", 7), frame("irlr", 3));
-  assert.equal(store.largestReward("meirl"), 7);
-  assert.equal(store.largestReward("irlr"), 3);
-  assert.equal(store.largestReward("irlf"), 0);
+const seeking = (name) => ({ name, seeks_visits: true });
+
+test("the colour scale of a learner that descends is the largest size it ever showed", () => {
+  const store = storeOf(frame("meirl", 0, { reward: [-9, 1] }), frame("meirl", 7), frame("irlr", 3));
+  assert.equal(store.largestReward(seeking("meirl")), 9);
+  assert.equal(store.largestReward(seeking("irlr")), 3);
+  assert.equal(store.largestReward(seeking("irlf")), 0);
+});
+
+test("the colour scale of a chain that began far off is that of where it came to", () => {
+  const store = storeOf(frame("birlfr", 0, { reward: [-40, 1] }), frame("birlfr", 400, { reward: [-0.3, 1] }));
+  assert.equal(store.largestReward({ name: "birlfr", seeks_visits: false }), 1);
 });
 
 test("a figure that is not a number does not spoil the scale", () => {
-  assert.equal(storeOf(frame("meirl", 0, { reward: [Number.NaN, 2, null] })).largestReward("meirl"), 2);
+  assert.equal(storeOf(frame("meirl", 0, { reward: [Number.NaN, 2, null] })).largestReward(seeking("meirl")), 2);
 });
 
 test("a long table keeps its first and last row", () => {

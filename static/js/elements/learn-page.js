@@ -239,7 +239,7 @@ export class LearnPage extends HTMLElement {
       const frame = this.#timeline.isFollowing
         ? this.#store.latest(name)
         : this.#store.at(name, this.#timeline.position);
-      if (frame) panel.show(frame, this.#store.largestReward(name), shown);
+      if (frame) panel.show(frame, this.#store.largestReward(panel.learner), shown);
       panel.progress({
         stage: progress.stageOf(name),
         share: progress.shareOf(name),

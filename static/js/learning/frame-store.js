@@ -1,7 +1,7 @@
 /**
  * The recorded frames of a run, kept by learner and iteration. A frame that comes twice (a stream that resumed) takes
  * the place of its twin, so replays do no harm; frames may come in any order.
- * @import {Frame} from "#js/learning/types.js"
+ * @import {Frame, LearnerInfo} from "#js/learning/types.js"
  */
 
 /** @typedef {{ frames: Frame[], largest: number }} Track one learner's frames by rising iteration; the largest |reward| */
@@ -53,12 +53,14 @@ export class FrameStore {
   }
 
   /**
-   * The largest |reward| a learner ever showed: one colour scale for its whole time line, so that colours can be
-   * compared between iterations.
-   * @param {string} learner
+   * The largest |reward| at the ends of a learner's colour scale. One that descends has one scale for its whole time line,
+   * so that colours can be compared between iterations: the largest it ever showed. Others may begin anywhere, as a
+   * Markov chain does, and would end pale; theirs is that of their last frame.
+   * @param {Pick<LearnerInfo, "name" | "seeks_visits">} learner
    */
-  largestReward(learner) {
-    return this.#tracks.get(learner)?.largest ?? 0;
+  largestReward({ name, seeks_visits }) {
+    const track = this.#tracks.get(name);
+    return seeks_visits ? (track?.largest ?? 0) : largestSize(track?.frames.at(-1)?.reward ?? []);
   }
 
   /**
