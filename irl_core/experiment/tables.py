@@ -48,9 +48,10 @@ def tables(summaries: Sequence[KindSummary]) -> list[Table]:
     differences = [
         _differences(summaries, learner.name) for learner in summaries[0].learners if _family(learner.name) == "ours"
     ]
+    overview += [*(table for table in differences if table is not None), _above_human(summaries)]
     details = [table for one in summaries for table in (_learners(one), _wins(one, "soft"), _wins(one, "greedy"))]
     first_tables = [_table_one(one) for one in summaries if one.table_one]
-    return [*overview, *(table for table in differences if table is not None), *details, *first_tables]
+    return [*overview, *details, *first_tables]
 
 
 def title_of(kind: str) -> str:
@@ -73,6 +74,21 @@ def _shares(summaries: Sequence[KindSummary], measure: Measure) -> Table:
             *(row(one.title, _share_of(one.name, measure)) for one in summaries[0].learners),
         ),
         note=f"Exact expected return over the optimum's, with 95 % bootstrap intervals; {_worlds(summaries)}.",
+    )
+
+
+def _above_human(summaries: Sequence[KindSummary]) -> Table:
+    def row(title: str, shares: Sequence[float]) -> tuple[str, ...]:
+        mean = [fmean(shares)] if len(shares) > 1 else []
+        return (title, *(f"{100 * share:.1f} %" for share in (*shares, *mean)))
+
+    return Table(
+        title="Worlds in which a learner is finite and above the human",
+        header=("", *_kind_titles(summaries), *(["Mean"] if len(summaries) > 1 else [])),
+        rows=tuple(
+            row(one.title, [kind.learner(one.name).above_human for kind in summaries]) for one in summaries[0].learners
+        ),
+        note="The expected return of the policy as learned against the mean of the person's attempts.",
     )
 
 
