@@ -3,7 +3,7 @@
 The mathematics and the letters are those of `irl_core.learners.birlfr.model`. Open squares are 0 … n − 1 in the order
 of the band, goals n … n + G − 1. A position q, standard normal a priori, is laid out
 
-    z (n) | z_m (K) | z_σ (K) | log β, κ of successes and of failures, standardised (4) | worths of goals 1 … G − 1.
+    z (n) | z_m (K) | z_σ (K) | β, κ, η of successes and of failures (6) | worths of goals 1 … G − 1.
 """
 
 import math
@@ -15,6 +15,7 @@ from numba import njit
 LOG_FOUR = math.log(4.0)
 LOWEST = 1e-250  # of a path sum that is kept: below, what β and κ say has long been said
 HIGHEST = 600.0  # of an exponent
+LOG_HIGHEST = math.log(HIGHEST)
 
 
 class Evidence(NamedTuple):
@@ -25,7 +26,7 @@ class Evidence(NamedTuple):
     entries: np.ndarray  # (B, n + G): how often each attempt entered each square and goal
     is_failure: np.ndarray  # (B,) int32
     goals: np.ndarray  # (B,) int32: the goal reached, n …, or −1
-    path_ends: np.ndarray  # (2, n): of successes and failures, starts minus the squares where unfinished attempts ended
+    moves: np.ndarray  # (2, n, 4): how often successes and failures went each way
     pairs: np.ndarray  # (P, 2) int32: the better and the worse of two attempts
     width: int  # of the band
 
@@ -45,6 +46,8 @@ class Prior(NamedTuple):
     log_beta_spread: float
     log_kappa: float
     log_kappa_spread: float
+    lapse: float
+    lapse_spread: float
     log_worth_spread: float
 
 
@@ -117,7 +120,7 @@ def _costs(q, costs, n, n_goals, evidence, prior):
         costs[i] = math.exp(exponent)
     costs[n] = 0.0
     for j in range(1, n_goals):
-        exponent = prior.log_worth_spread * q[n + 2 * n_classes + 3 + j]
+        exponent = prior.log_worth_spread * q[n + 2 * n_classes + 5 + j]
         if not abs(exponent) < HIGHEST:
             return False
         costs[n + j] = 1.0 - math.exp(exponent)
@@ -136,7 +139,7 @@ def _through_costs(q, gradient, costs, by_cost, n, n_goals, evidence, prior):
         gradient[n + k] += by_log * prior.class_spread
         gradient[n + n_classes + k] += by_log * spread * q[i] * prior.spread_of_spread
     for j in range(1, n_goals):
-        gradient[n + 2 * n_classes + 3 + j] += by_cost[n + j] * (costs[n + j] - 1.0) * prior.log_worth_spread
+        gradient[n + 2 * n_classes + 5 + j] += by_cost[n + j] * (costs[n + j] - 1.0) * prior.log_worth_spread
 
 
 @njit(cache=True)
@@ -169,79 +172,96 @@ def _labels_and_ranks(costs, by_cost, evidence, prior):
 
 @njit(cache=True)
 def _choices(q, gradient, costs, by_cost, kind, first_choice, evidence, prior):
-    """The tempered log-likelihood of the paths of successes (kind 0) or failures (kind 1); adds to the gradients."""
-    n, n_all = len(evidence.neighbours), len(costs)
-    ends, actual = evidence.path_ends[kind], np.zeros(n_all)
-    if not np.any(evidence.is_failure == kind):
+    """The tempered log-likelihood of the steps of successes (kind 0) or failures (kind 1); adds to the gradients."""
+    n, n_all, at = len(evidence.neighbours), len(costs), first_choice + 3 * kind
+    if not np.any(evidence.moves[kind] > 0.0):
         return 0.0
-    for b in range(len(evidence.entries)):
-        if evidence.is_failure[b] == kind:
-            for i in range(n_all):
-                actual[i] += evidence.entries[b, i]
-    log_beta = prior.log_beta + prior.log_beta_spread * q[first_choice + 2 * kind]
-    log_excess = prior.log_kappa + prior.log_kappa_spread * q[first_choice + 2 * kind + 1]
-    if not max(log_beta, log_excess) < 6.4:  # e^6.4 = 600
+    log_beta = prior.log_beta + prior.log_beta_spread * q[at]
+    log_excess = prior.log_kappa + prior.log_kappa_spread * q[at + 1]
+    if not max(log_beta, log_excess) < LOG_HIGHEST:
         return -np.inf
     beta, excess = math.exp(log_beta), math.exp(log_excess)
+    lapse = _logistic(prior.lapse + prior.lapse_spread * q[at + 2])
     action = np.empty(n_all)
     for i in range(n_all):
         action[i] = beta * costs[i] + (LOG_FOUR + excess if i < n else 0.0)
-    expected = np.zeros(n_all)
-    log_z = path_sum(action, evidence.neighbours, ends, evidence.width, expected)
-    if not log_z < np.inf:
-        return -np.inf
-    value, by_log_beta, by_kappa = -log_z, 0.0, 0.0
+    by_action = np.zeros(n_all)
+    value, by_lapse = log_steps(action, evidence.neighbours, evidence.moves[kind], lapse, evidence.width, by_action)
+    by_log_beta, by_kappa = 0.0, 0.0
     for i in range(n_all):
-        value -= actual[i] * action[i]
-        by_action = prior.choice_power * (expected[i] - actual[i])
-        by_cost[i] += by_action * beta
-        by_log_beta += by_action * beta * costs[i]
+        by_cost[i] += prior.choice_power * by_action[i] * beta
+        by_log_beta += by_action[i] * beta * costs[i]
         if i < n:
-            by_kappa += by_action
-    gradient[first_choice + 2 * kind] += by_log_beta * prior.log_beta_spread
-    gradient[first_choice + 2 * kind + 1] += by_kappa * excess * prior.log_kappa_spread
+            by_kappa += by_action[i]
+    gradient[at] += prior.choice_power * by_log_beta * prior.log_beta_spread
+    gradient[at + 1] += prior.choice_power * by_kappa * excess * prior.log_kappa_spread
+    gradient[at + 2] += prior.choice_power * by_lapse * lapse * (1.0 - lapse) * prior.lapse_spread
     return prior.choice_power * value
 
 
 @njit(cache=True)
-def path_sum(action, neighbours, ends, width, expected):
-    """Σ_s ends_s log z(s), and in `expected`, (n + G,), minus its gradient in the action. +∞ where it underflows.
+def log_steps(action, neighbours, moves, lapse, width, by_action):
+    """Σ moves · log((1 − η) q + η / 4) and its slope in η; adds its gradient in the action, (n + G,). −∞: underflow."""
+    n = len(neighbours)
+    band, v = np.zeros((n, width + 1)), np.zeros(n)
+    if not path_sums(action, neighbours, band, v):
+        return -np.inf, 0.0
+    value, by_lapse, g, share = 0.0, 0.0, np.zeros(n), np.empty(4)
+    for i in range(n):
+        if not np.any(moves[i] > 0.0):
+            continue
+        for d in range(4):
+            j = neighbours[i, d]
+            share[d] = math.exp(-action[j]) if j >= n else v[j]
+        share /= share.sum()
+        explained = 0.0
+        for d in range(4):
+            if moves[i, d] > 0.0:
+                chance = max((1.0 - lapse) * share[d] + 0.25 * lapse, LOWEST)
+                value += moves[i, d] * math.log(chance)
+                by_lapse += moves[i, d] * (0.25 - share[d]) / chance
+                explained += moves[i, d] * (1.0 - lapse) * share[d] / chance
+        for d in range(4):
+            j = neighbours[i, d]
+            chance = max((1.0 - lapse) * share[d] + 0.25 * lapse, LOWEST)
+            by_log = share[d] * (moves[i, d] * (1.0 - lapse) / chance - explained)
+            if j >= n:
+                by_action[j] -= by_log
+            else:
+                g[j] += by_log / v[j]
+    _solve(band, g)
+    for i in range(n):
+        by_action[i] -= g[i] * v[i] * math.exp(action[i])
+        for d in range(4):
+            if neighbours[i, d] >= n:
+                by_action[neighbours[i, d]] -= g[i] * math.exp(-action[neighbours[i, d]])
+    return value, by_lapse
 
-    z(s) is the sum over paths from s to a goal of e^{−action of what is entered}; v(s) = e^{−action(s)} z(s) solves
-    K v = b with K = diag(e^{action}) − adjacency, b(s) = Σ e^{−action} of the goals beside s.
+
+@njit(cache=True)
+def path_sums(action, neighbours, band, v):
+    """Fill v, (n,), with K⁻¹ b and `band` with the factors of K. False where a number leaves the range of floats.
+
+    z(s), the sum over paths from s to a goal of e^{−action of what is entered}, is e^{action(s)} v(s).
     """
     n = len(neighbours)
-    band, v, g = np.zeros((n, width + 1)), np.zeros(n), np.zeros(n)
+    for i in range(len(action)):
+        if not abs(action[i]) < HIGHEST:
+            return False
     for i in range(n):
-        if not action[i] < HIGHEST:
-            return np.inf
         band[i, 0] = math.exp(action[i])
-        for direction in range(4):
-            j = neighbours[i, direction]
+        for d in range(4):
+            j = neighbours[i, d]
             if j >= n:
-                v[i] += math.exp(min(-action[j], HIGHEST))
+                v[i] += math.exp(-action[j])
             elif j == i:
                 band[i, 0] -= 1.0
             elif j < i:
                 band[i, i - j] = -1.0
     if not _factorise(band):
-        return np.inf
+        return False
     _solve(band, v)
-    value = 0.0
-    for i in range(n):
-        if ends[i] != 0.0:
-            if not v[i] > LOWEST:
-                return np.inf
-            value += ends[i] * (math.log(v[i]) + action[i])
-            g[i] = ends[i] / v[i]
-    _solve(band, g)
-    for i in range(n):
-        expected[i] += g[i] * v[i] * math.exp(action[i]) - ends[i]
-        for direction in range(4):
-            j = neighbours[i, direction]
-            if j >= n:
-                expected[j] += g[i] * math.exp(min(-action[j], HIGHEST))
-    return value
+    return bool(v.min() > LOWEST)
 
 
 @njit(cache=True)

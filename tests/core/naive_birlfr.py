@@ -29,7 +29,7 @@ def log_sums(problem, cost, worth, beta, kappa):
 
 
 def log_posterior(problem, squares, prior, q):
-    """With q in the layout of the kernel: squares, class means, class spreads, β and κ twice, worths of more goals."""
+    """With q in the layout of the kernel: squares, class means and spreads, β, κ and η twice, worths of more goals."""
     mdp, n, K = problem.mdp, len(squares), len(prior.class_means)
     seen = problem.model.reward if K > 1 else np.zeros(mdp.n_states)
     cost = {}
@@ -38,23 +38,29 @@ def log_posterior(problem, squares, prior, q):
         mean = prior.class_means[k] + prior.class_spread * q[n + k]
         spread = prior.square_spread * math.exp(prior.spread_of_spread * q[n + K + k])
         cost[int(s)] = math.exp(mean + spread * q[i])
-    worth = {goal: math.exp(prior.log_worth_spread * q[n + 2 * K + 3 + j]) for j, goal in enumerate(mdp.goals)}
+    worth = {goal: math.exp(prior.log_worth_spread * q[n + 2 * K + 5 + j]) for j, goal in enumerate(mdp.goals)}
     worth[mdp.goals[0]] = 1.0
 
     value, totals = -0.5 * float(q @ q), {}
     for kind, attempts in (("success", problem.successes), ("failure", problem.failures)):
-        at = n + 2 * K + (2 if kind == "failure" else 0)
+        at = n + 2 * K + (3 if kind == "failure" else 0)
         beta = math.exp(prior.log_beta + prior.log_beta_spread * q[at])
         kappa = math.log(4.0) + math.exp(prior.log_kappa + prior.log_kappa_spread * q[at + 1])
+        lapse = 1.0 / (1.0 + math.exp(-prior.lapse - prior.lapse_spread * q[at + 2]))
         log_z = log_sums(problem, cost, worth, beta, kappa)
         for one in attempts:
             entered = [int(s) for s in one.states[1:]]
             end = entered[-1]
             paid = sum(cost[s] for s in entered if s not in worth)
             totals[one.id] = worth.get(end, 0.0) - paid
-            log_path = -beta * paid - kappa * sum(s not in worth for s in entered) - log_z[one.states[0]]
-            log_path += beta * (worth[end] - 1.0) if end in worth else log_z[end]
-            value += prior.choice_power * log_path
+            for here, there in pairwise(int(s) for s in one.states):
+                ahead = [step(mdp, here, direction) for direction in range(4)]
+                weights = [
+                    math.exp(beta * (worth[to] - 1.0) if to in worth else log_z[to] - beta * cost[to] - kappa)
+                    for to in ahead
+                ]
+                meant = weights[ahead.index(there)] / sum(weights)
+                value += prior.choice_power * math.log((1.0 - lapse) * meant + lapse / 4.0)
             if end in worth:
                 value += log_logistic((1 if kind == "success" else -1) * totals[one.id] / prior.label_width)
 

@@ -2,6 +2,7 @@
 
 import json
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -67,7 +68,7 @@ def played(world, actions, *, id_):
     return simulate(world, actions, attempt_id=id_)
 
 
-VARIANTS = {
+VARIANTS: dict[str, dict[str, Any]] = {
     "plain": {},
     "walls": {"walls": (4,), "goals": (3, 2)},
     "slip": {"slip": 0.25},
@@ -101,13 +102,12 @@ def test_the_path_sum_is_that_of_planning_with_a_long_horizon():
     problem = LearningProblem.build(world, [one_way(world)], settings=Settings(unfinished_failures="include"))
     model = Model(problem)
     action = np.append(np.random.default_rng(0).uniform(1.5, 3.0, len(model.squares)), 0.0)
-    ends, expected = np.zeros(len(model.squares)), np.zeros(model.n_costs)
-    ends[np.flatnonzero(model.squares == world.start)] = 1.0
-    log_z = _kernels.birlfr.path_sum(action, model.evidence.neighbours, ends, model.evidence.width, expected)
+    band, v = np.zeros((len(model.squares), model.evidence.width + 1)), np.zeros(len(model.squares))
+    assert _kernels.birlfr.path_sums(action, model.evidence.neighbours, band, v)
     reward = np.zeros(world.n_states)
     reward[model.squares] = -action[:-1]
     plan = soft_plan(world, reward, horizon=400)
-    assert log_z == pytest.approx(plan.log_partition - reward[world.start], abs=1e-10)
+    assert np.log(v[model.squares == world.start][0]) == pytest.approx(plan.log_partition, abs=1e-10)
 
 
 def one_way(world):
@@ -181,9 +181,10 @@ def test_scores_are_never_used():
 
 @pytest.mark.parametrize("kind", ["boltzmann", "wanderer", "shortest_path"])
 def test_a_run_converges_plans_well_and_says_how_sure_it_is(kind):
-    problem = problem_of(kind, seed=2)
+    problem = problem_of(kind, seed=5)
     found, world = learn(LEARNER, problem, frame_every=1000), problem.world
     posterior = found.posterior
+    assert posterior is not None
     assert found.outcome is Outcome.CONVERGED
     assert "quarters agree" in found.sentence
     assert (posterior.reward_low <= posterior.reward_high).all()
@@ -216,6 +217,7 @@ def test_what_an_attempt_entered_is_bounded_by_its_label():
     world = World(1 + 1, 6, np.array([[-0.5] * 5 + [6.0], [-0.5] * 6]), 0, (5,), walls=(6, 7, 8, 9, 10, 11))
     found = learn(LEARNER, LearningProblem.build(world, [attempt(world, [0, 1, 2, 3, 4, 5], id_="a")]))
     assert -found.reward[1:5].sum() < 1.1
+    assert found.posterior is not None
     assert found.posterior.return_high > 0.0
 
 

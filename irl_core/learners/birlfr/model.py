@@ -17,26 +17,32 @@ which choices alone cannot. A failure that reached no goal failed for that reaso
 ε + (1 − 2ε) σ((g_better − g_worse) / w_r). A tie gives no term: people tie what they cannot or will not tell apart, and
 an equality would be read as knowledge.
 
-**Choices**: with their own β and κ for successes and failures, attempts are drawn from the distribution over paths
+**Choices**: an attempt means to follow the distribution over paths of any length (Ziebart et al. 2008; slip cancels,
+see `planning`),
 
     P(ζ) = exp(−β Σ_t c(s_t) + β (v − 1) − κ L_ζ) / z(s_0),   L_ζ the squares entered before the goal,
 
-of any length (Ziebart et al. 2008; slip cancels, see `planning`). An unfinished attempt is the beginning of one: z(s_T)
-/ z(s_0) takes the place of 1 / z(s_0). κ = log 4 + e^{…} > log 4 makes the sum finite whatever the costs: K below is
-diagonally dominant, hence positive definite. With v(s) = e^{−βc(s) − κ} z(s), one banded LDLᵀ of
-K = diag(e^{βc + κ}) − adjacency gives z; a second solve with it the expected entries and so the gradient:
+but at each step with probability η its hand slips, or the world does: it goes in any direction. With
+v(s) = e^{−βc(s) − κ} z(s), of a goal e^{β (v_j − 1)}, a step from s in direction d has probability
 
-    K v = b,  b(s) = Σ e^{β (v_j − 1)} over goals j beside s;   ∂ log z(s_0)/∂c(s) = −β · (expected entries of s).
+    (1 − η) q(d | s) + η / 4,   q(d | s) = v(s′_d) / Σ_d′ v(s′_d′).
+
+Successes and failures have β, κ and η of their own. An attempt that reached no goal is made of steps like any other.
+κ = log 4 + e^{…} > log 4 makes z finite whatever the costs: K below is diagonally dominant, so positive definite. One
+banded LDLᵀ gives v, a second solve with it the gradient,
+
+    K v = b,  K = diag(e^{βc + κ}) − adjacency,  b(s) = Σ e^{β (v_j − 1)} over goals j beside s;
+    ∂ (h·log v) / ∂ (βc(s) + κ) = −g(s) v(s) e^{βc(s) + κ},  K g = h / v.
 
 **The power of choices.** Their log-likelihood is multiplied by ν < 1, as in the power posteriors of Miller and Dunson
 (2019) for models that are known to be wrong: who believes something false acts on it at every step, so that steps are
-not so many pieces of evidence. Simulated people who are blind to colour, see nothing but colour or plan three steps
-ahead are misread at ν = 1; labels and ranks are facts of the game and keep their power.
+not so many pieces of evidence. Simulated people who are blind to colour or act on noisy impressions of it are misread
+at ν = 1; labels and ranks are facts of the game and keep their power.
 
 **Why the posterior mean.** The return of a policy is linear in costs and worths (its expected visits do not depend on
 them), so the plan that is best for the mean cost E[c | data] has the largest expected return under the posterior.
 
-The constants (`PRIOR_*`) were chosen on simulated attempts in worlds that no reported figure is from. Red is taken to
+The constants (`PRIOR…`) were chosen on simulated attempts, in worlds that no reported figure is from. Red is taken to
 cost several times as much as blue *a priori* (m̄: e^1.5 = 4.5, give or take a factor of e^{s_m √2} = 1.9): it is what
 people are told. Scores are never used.
 """
@@ -72,9 +78,11 @@ PRIOR: Final = {
     "log_beta_spread": 1.5,
     "log_kappa": float(np.log(0.5)),
     "log_kappa_spread": 2.0,
+    "lapse": -2.5,  # the log odds of η: 0.08, give or take a factor of e
+    "lapse_spread": 1.0,
     "log_worth_spread": 0.5,  # s_v
 }
-_N_CHOICE: Final = 4
+_N_CHOICE: Final = 6
 
 
 class Model:
@@ -156,12 +164,12 @@ def _evidence(
     number = np.full(mdp.n_states, -1, dtype=np.int64)
     number[squares], number[goals] = np.arange(len(squares)), len(squares) + np.arange(len(goals))
     attempts = informative(problem, number)
-    entries, path_ends = np.zeros((len(attempts), len(squares) + len(goals))), np.zeros((2, len(squares)))
+    entries, moves = np.zeros((len(attempts), len(squares) + len(goals))), np.zeros((2, len(squares), grid.N_ACTIONS))
     for b, one in enumerate(attempts):
         np.add.at(entries[b], number[one.states[1:]], 1.0)
-        path_ends[int(one.outcome == "failure"), number[one.states[0]]] += 1.0
-        if not one.reached_goal:
-            path_ends[int(one.outcome == "failure"), number[one.states[-1]]] -= 1.0
+        here, there = one.states[:-1], one.states[1:]
+        went = (mdp.next_states[here] == there[:, None]).argmax(axis=1)
+        np.add.at(moves, (int(one.outcome == "failure"), number[here], went), 1.0)
     neighbours = number[mdp.next_states[squares]]
     inside = neighbours < len(squares)
     return _kernels.birlfr.Evidence(
@@ -170,7 +178,7 @@ def _evidence(
         entries=entries,
         is_failure=np.array([one.outcome == "failure" for one in attempts], dtype=np.int32),
         goals=np.array([number[one.states[-1]] if one.reached_goal else -1 for one in attempts], dtype=np.int32),
-        path_ends=path_ends,
+        moves=moves,
         pairs=_pairs(problem, {one.id: b for b, one in enumerate(attempts)}),
         width=int(np.where(inside, np.abs(neighbours - np.arange(len(squares))[:, None]), 0).max()),
     )
