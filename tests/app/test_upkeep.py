@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from datetime import timedelta
 from types import SimpleNamespace
@@ -56,6 +57,21 @@ class FakeJobs:
 def make_upkeep(database, settings, monkeypatch, jobs, at_work=()):
     monkeypatch.setattr(upkeep, "DBOS", jobs)
     return upkeep.Upkeep(database, name="worker-1", data_dir=settings.data_dir, at_work=at_work)
+
+
+def test_a_worker_that_compiles_shows_life_and_can_be_told_to_stop(database, settings, monkeypatch):
+    mine = upkeep.Upkeep(database, name="worker-1", data_dir=settings.data_dir, at_work=())
+    stop, compiled = threading.Event(), threading.Event()
+    monkeypatch.setattr(worker, "warm_up", lambda: compiled.wait(30))
+    monkeypatch.setattr(worker, "SHOW_LIFE_EVERY_S", 0.01)
+    threading.Timer(0.2, stop.set).start()
+    worker._warm_up(mine, stop)
+    assert stop.is_set(), "it went on before everything was compiled"
+    with database.read() as session:
+        assert worker_is_alive(session)
+    compiled.set()
+    monkeypatch.setattr(worker, "warm_up", lambda: None)
+    worker._warm_up(mine, threading.Event())
 
 
 def test_jobs_of_a_dead_worker_are_queued_again_and_those_of_a_living_one_are_left(database, settings, monkeypatch):
