@@ -1,6 +1,7 @@
 """The command line, in processes of its own where it matters and in this one where it does not."""
 
 import json
+import re
 import socket
 import threading
 
@@ -9,6 +10,7 @@ from typer.testing import CliRunner
 from app.cli import cli
 from app.db import Database
 from app.learning import worker
+from irl_core import LEARNERS
 from tests.app.test_learning import ask, played  # noqa: F401 - a fixture
 
 runner = CliRunner()
@@ -34,6 +36,19 @@ def test_learn_gives_the_numbers_of_the_web_run(client, played, settings, tmp_pa
     assert result["comparison"]["entries"] == comparison["entries"]
     assert result["rollouts"] == client.get(f"/api/v1/runs/{run_id}/rollouts").json()
     assert result["settings"] == run["settings"]
+
+
+def test_learn_prints_every_learner_there_is(client, played, tmp_path):  # noqa: F811
+    run_id = ask(client, played).json()["id"]
+    file = tmp_path / "run.jsonl"
+    file.write_text(client.get(f"/api/v1/runs/{run_id}/demonstrations.jsonl").text)
+    done = runner.invoke(cli, ["learn", str(file), "--learners", "all", "--set", "iterations=5"])
+    assert done.exit_code == 0, done.output
+    printed = " ".join(re.sub(r"[^\w()+.-]+", " ", done.output).split())
+    for learner in LEARNERS.values():
+        assert learner.title.split()[0] in printed
+    result = json.loads(file.with_suffix(".result.json").read_text())
+    assert list(result["learners"]) == list(LEARNERS)
 
 
 def test_learn_refuses_in_words(tmp_path):
