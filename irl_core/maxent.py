@@ -16,9 +16,9 @@ by η with η = δw + P η, so δw = (1 − P) η, and in terms of η the second
 the Fisher information of a path is what its steps tell. The Newton system A η = −(1 − Pᵀ) g has the matrix
 A = Σ_s μ(s) [diag(p_s) − p_s p_sᵀ] + l2 (1 − Pᵀ)(1 − P), p_s row s of P: it couples squares at most two steps apart, is
 positive definite, and holds for any distribution of starts (ρ_0 does not change with w). One banded LDLᵀ of width
-2 · cols gives the step; it is halved until f falls enough (Armijo) and K stays positive definite.
+2 · cols gives the step; it is shortened until f falls enough (Armijo) and K stays positive definite.
 
-**It stops** when ‖g‖∞ ≤ tolerance, or after `max_iterations` steps. It starts at w = −log 4 − ½, where the sum over
+**It stops** when ‖g‖∞ ≤ tolerance, or after `max_iterations` steps. It starts at w = −log 4 − 0.3, where the sum over
 paths is always finite.
 
 Where no start leads to, w = μ̃ / l2 (0, unless counts were given there). Source: Ziebart et al. (2008) for the
@@ -37,7 +37,7 @@ from irl_core.errors import InvalidModel, InvalidReward, InvalidSettings
 from irl_core.inference.path_infinite import path_kinds
 from irl_core.mdp.grid import GridMdp
 
-_FIRST_WEIGHT = -np.log(4.0) - 0.5
+_FIRST_WEIGHT = -np.log(4.0) - 0.3
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,6 +14,7 @@ from bench.measure import Figure, at_least, at_most, cpu_seconds, interleaved
 from irl_core import draw_playable_world, generate_world
 from irl_core._kernels import stencil
 from irl_core.inference import infer, infer_batch
+from irl_core.inference.path_infinite import infer_path_infinite_batch
 from irl_core.maxent import fit_maxent
 from irl_core.mdp.grid import GridMdp
 
@@ -37,7 +38,8 @@ def batched() -> Figure:
     slow = partial(dense.gradient, dense_model(world), reward, horizon=HORIZON)
     mdps = [generate_world(seed).mdp for seed in range(N_WORLDS)]
     rewards = -np.log(4.0) - growth.learned_costs(np.random.default_rng(2), N_WORLDS * 49).reshape(N_WORLDS, 49)
-    pairs = interleaved(slow, lambda: infer_batch(mdps, rewards, inference="path_infinite"))
+    starts = np.stack([mdp.starts for mdp in mdps])
+    pairs = interleaved(slow, lambda: infer_path_infinite_batch(mdps, rewards, starts=starts))
     return at_least(
         f"7×7, no horizon, {N_WORLDS} worlds, per world, against dense N = {HORIZON}",
         [N_WORLDS * theirs / ours for theirs, ours in pairs],

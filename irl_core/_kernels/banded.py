@@ -10,7 +10,7 @@ import math
 import numpy as np
 from numba import njit
 
-from irl_core._kernels.lines import GOAL, ON_THE_WAY, WALL, mark_the_way
+from irl_core._kernels.lines import FUSED, GOAL, ON_THE_WAY, WALL, mark_the_way
 
 LANES = 32
 _SMALLEST, _LARGEST = 1e-200, 1e200
@@ -114,6 +114,7 @@ def solve_worlds(kinds, pays, inverse, starts, slips, log_partition, policy, vis
     is_positive = np.ones(LANES, dtype=np.bool_)
     for first in range(0, n_worlds, LANES):
         n_live = min(LANES, n_worlds - first)
+        band[:] = 0.0
         for lane in range(LANES):
             world = first + min(lane, n_live - 1)  # the last world fills the lanes left over
             fill_lane(kinds[world], pays[world], inverse[world], band, z, lane)
@@ -144,13 +145,11 @@ def solve_worlds(kinds, pays, inverse, starts, slips, log_partition, policy, vis
 
 @njit(cache=True, error_model="numpy")
 def fill_lane(kind, pay, inverse, band, z, lane):
-    """K into band[:, :, lane] and its right-hand side into z: the e^R of goals, and of goals beside."""
+    """K into band[:, :, lane], 0 before, and its right-hand side into z: the e^R of goals, and of goals beside."""
     rows, cols = kind.shape
     for i in range(rows):
         for j in range(cols):
             s = i * cols + j
-            for k in range(cols + 1):
-                band[s, k, lane] = 0.0
             band[s, 0, lane] = 1.0
             z[s, lane] = pay[i, j] if kind[i, j] == GOAL else 0.0
             if kind[i, j] != ON_THE_WAY:
@@ -169,7 +168,7 @@ def fill_lane(kind, pay, inverse, band, z, lane):
             band[s, 0, lane] = inverse[i, j] - loops
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, error_model="numpy", fastmath=FUSED)
 def factorise_lanes(band, is_positive):
     """LDLᵀ in place: D in band[:, 0], L beside. A pivot that is not positive is noted for its lane and made 1."""
     n, width, lanes = band.shape
@@ -181,7 +180,9 @@ def factorise_lanes(band, is_positive):
             if not band[j, 0, lane] > 0.0:
                 is_positive[lane] = False
                 band[j, 0, lane] = 1.0
-        column[:height] = band[j, :height]
+        for i in range(height):
+            for lane in range(lanes):
+                column[i, lane] = band[j, i, lane]
         for i in range(1, height):
             below, pivot, of_row = band[j, i], column[0], column[i]
             for lane in range(lanes):
@@ -193,7 +194,7 @@ def factorise_lanes(band, is_positive):
                     reduced[lane] -= factor[lane] * of_column[lane]
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, error_model="numpy", fastmath=FUSED)
 def solve_lanes(band, x):
     """Solve L D Lᵀ x = x in place, (S, LANES)."""
     n, width, lanes = band.shape

@@ -13,7 +13,9 @@ from irl_core._kernels.banded import LANES, factorise_lanes, fill_lane, solve_la
 from irl_core._kernels.lines import GOAL, ON_THE_WAY, WALL
 
 _STAY = 4
-_ARMIJO = 1e-4
+_ARMIJO, _SHRINK = 0.4, 0.3
+"""A strict test and large reductions keep off the barrier, from where Newton only doubles its distance at each step."""
+
 _SLACK = 1e-13
 """Near the minimum the objective no longer tells two points apart; a step may raise it by this share."""
 
@@ -44,9 +46,10 @@ def fit_worlds(kinds, counts, starts, first_weight, l2, tolerance, max_iteration
                 tried[s, lane] = first_weight if on_the_way else 0.0
                 step[s, lane] = 0.0
         while is_open.any():
+            band[:] = 0.0
             for lane in range(n_live):
                 world = first + lane
-                _prepare_lane(kinds[world], starts[world], tried, band, z, lane)
+                _prepare_lane(kinds[world], tried, band, z, lane)
             factorise_lanes(band, is_positive)
             solve_lanes(band, z)
             for lane in range(n_live):
@@ -72,11 +75,11 @@ def fit_worlds(kinds, counts, starts, first_weight, l2, tolerance, max_iteration
                     values[world] = value
                     is_open[lane] = gap > tolerance and iterations[world] < max_iterations
                 else:
-                    size[lane] *= 0.5
+                    size[lane] *= _SHRINK
                     is_open[lane] = size[lane] > _SMALLEST_STEP
             if not is_open.any():
                 break
-            _newton_matrix(kinds, starts, visits, law, l2, wide, first, n_live)
+            _newton_matrix(visits, law, l2, cols, wide, n_live)
             for lane in range(n_live):
                 if is_better[lane] and is_open[lane]:
                     _newton_source(gradient, law, cols, x, lane)
@@ -95,7 +98,7 @@ def fit_worlds(kinds, counts, starts, first_weight, l2, tolerance, max_iteration
 
 
 @njit(cache=True, error_model="numpy")
-def _prepare_lane(kind, starts, tried, band, z, lane):
+def _prepare_lane(kind, tried, band, z, lane):
     rows, cols = kind.shape
     pay, inverse = np.empty((rows, cols)), np.empty((rows, cols))
     for i in range(rows):
@@ -123,7 +126,7 @@ def _value(counts, starts, tried, z, l2, lane):
         if begins > 0.0:
             value += begins * math.log(z[s, lane]) if z[s, lane] > 0.0 else np.inf
         value += 0.5 * l2 * w * w - counts[s // cols, s % cols] * w
-    return value if value < np.inf else np.inf
+    return value if not np.isnan(value) else np.inf
 
 
 @njit(cache=True, error_model="numpy")
@@ -153,7 +156,7 @@ def _visits_and_law(kind, tried, z, x, visits, law, lane):
 
 @njit(cache=True, error_model="numpy")
 def _gradient(counts, tried, visits, l2, gradient, lane):
-    """g = μ − μ̃ + l2 w; answers ‖g‖∞."""
+    """Fill g = μ − μ̃ + l2 w; answers ‖g‖∞."""
     cols, gap = counts.shape[1], 0.0
     for s in range(len(visits)):
         gradient[s, lane] = visits[s, lane] - counts[s // cols, s % cols] + l2 * tried[s, lane]
@@ -162,9 +165,9 @@ def _gradient(counts, tried, visits, l2, gradient, lane):
 
 
 @njit(cache=True, error_model="numpy")
-def _newton_matrix(kinds, starts, visits, law, l2, band, first, n_live):
+def _newton_matrix(visits, law, l2, cols, band, n_live):
     """A = Σ_s μ_s Var_s + l2 (1 − P)ᵀ(1 − P), both as sums over the pairs of moves from s."""
-    n, cols = len(visits), kinds.shape[2]
+    n = len(visits)
     offsets = np.array([-cols, 1, cols, -1, 0])
     band[:] = 0.0
     for lane in range(n_live):

@@ -14,10 +14,10 @@ below 1): when no pivot of elimination is ≤ 0. Below −log 4 everywhere it al
 K x = ρ_0 / z, then μ(s) = e^{−R(s)} z(s) x(s), and at goals μ(g) = e^{R(g)} Σ x of the squares beside.
 The next direction has q(d | s) = z(s′_d) / Σ_{d′} z(s′_{d′}), the action P(a | s) = Σ_d T(d | a) q(d | s).
 
-**Potentials.** log z reaches −320 in a learned 100×100 world, −2,100 at 1000×1000. With any u near log z we solve for
-y = z e^{−u} instead: M = 1 − W with W(s, s′) = e^{R(s) + u(s′) − u(s)} (a loop: e^{R(s)}), M y = 0 on the way and y = 1 at
-goals; Mᵀ x = ρ_0 / y gives μ = y · x, goals included. M is K with its rows and columns scaled, so its pivots have
-the signs of K's. u starts as a lower bound from a Gauss–Seidel pass in logs; u ← u + log y mends it.
+**Potentials.** log z reaches −220 in a learned 100×100 world, −2,100 at 1000×1000. With u near log z we solve for
+y = z e^{−u} instead: M = 1 − W with W(s, s′) = e^{R(s) + u(s′) − u(s)}, a loop e^{R(s)}; M y = 0 on the way, y = 1 at
+goals; Mᵀ x = ρ_0 / y gives μ = y · x, goals included. M is K with its rows and columns scaled, so its pivots have the
+signs of K's. u starts as a lower bound from a Gauss–Seidel pass in logs; u ← u + log y mends it.
 
 **How it is solved.** Many small worlds: K by LDLᵀ, side by side; what leaves the range of plain floats goes the next
 way. One world at most 32 squares wide: M by banded LU. Larger ones: line Gauss–Seidel, rows solved exactly, in
@@ -147,8 +147,8 @@ def _solve(mdp: GridMdp, kind: Kinds, reward: Matrix, starts: Matrix) -> tuple[M
 def _solve_directly(mdp: GridMdp, kind: Kinds, reward: Matrix, starts: Matrix, u: Matrix) -> tuple[Matrix, Matrix]:
     """By banded LU, the shorter side as its width."""
     if kind.shape[1] > kind.shape[0]:
-        turned = (np.ascontiguousarray(each.T) for each in (kind, reward, starts, u))
-        log_z, visits = _solve_directly(mdp, *turned)
+        turned = np.ascontiguousarray
+        log_z, visits = _solve_directly(mdp, turned(kind.T), turned(reward.T), turned(starts.T), turned(u.T))
         return np.ascontiguousarray(log_z.T), np.ascontiguousarray(visits.T)
     y, x = np.empty(kind.size), np.empty(kind.size)
     for _ in range(_MAX_ROUNDS):
@@ -163,7 +163,7 @@ def _solve_directly(mdp: GridMdp, kind: Kinds, reward: Matrix, starts: Matrix, u
 
 def _solve_by_lines(mdp: GridMdp, kind: Kinds, reward: Matrix, starts: Matrix, u: Matrix) -> tuple[Matrix, Matrix]:
     """By line relaxation; by LU if that takes too long."""
-    up, right, down, left, pivot = (np.empty(kind.shape) for _ in range(5))
+    up, right, down, left, pivot = (np.empty_like(reward) for _ in range(5))
     off_the_way = (kind != _kernels.lines.ON_THE_WAY).astype(np.float64)
     settle = _kernels.lines.settle
     y = np.zeros((kind.shape[0] + 2, kind.shape[1]))
@@ -185,10 +185,9 @@ def _solve_by_lines(mdp: GridMdp, kind: Kinds, reward: Matrix, starts: Matrix, u
     n_passes, _, _ = settle(x, share, up, right, down, left, True, _TOLERANCE, _MAX_PASSES)
     if n_passes == _MAX_PASSES:
         return _settle_otherwise(mdp, kind, reward, starts, u)
-    visits = pivot
-    visits *= x[1:-1]
-    visits *= y[1:-1]
-    return u, visits
+    np.multiply(pivot, x[1:-1], out=pivot)
+    np.multiply(pivot, y[1:-1], out=pivot)
+    return u, pivot
 
 
 def _settle_otherwise(mdp: GridMdp, kind: Kinds, reward: Matrix, starts: Matrix, u: Matrix) -> tuple[Matrix, Matrix]:
@@ -205,19 +204,18 @@ def _solve_apart(
     mdps: Sequence[GridMdp], rewards: Matrix, starts: Matrix, worlds: IntVector, results: tuple[Vector, Cube, Matrix]
 ) -> None:
     """One after the other, in potentials."""
-    divergent: dict[int, DivergentPartition] = {}
+    refused: dict[int, DivergentPartition] = {}
     for k in worlds.tolist():
         try:
             found = infer_path_infinite(mdps[k], rewards[k], starts=starts[k])
         except DivergentPartition as error:
-            divergent[k] = error
-            continue
-        for result, one in zip(results, (found.log_partition, found.policy, found.visitation), strict=True):
-            result[k] = one
-    if divergent:
-        first, error = next(iter(divergent.items()))
-        more = f", {len(divergent)} worlds of the batch in all: {sorted(divergent)[:20]}" if len(divergent) > 1 else ""
-        raise DivergentPartition(f"World {first}{more}: {error.message}", spectral_radius=error.spectral_radius)
+            refused[k] = error
+        else:
+            results[0][k], results[1][k], results[2][k] = found.log_partition, found.policy, found.visitation
+    if refused:
+        first, why = next(iter(refused.items()))
+        more = f", {len(refused)} worlds of the batch in all: {sorted(refused)[:20]}" if len(refused) > 1 else ""
+        raise DivergentPartition(f"World {first}{more}: {why.message}", spectral_radius=why.spectral_radius)
 
 
 def _refuse_divergence(mdp: GridMdp, reward: Matrix) -> NoReturn:

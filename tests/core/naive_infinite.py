@@ -1,6 +1,7 @@
 """The slow, obvious twin of path inference without a horizon: K as a dense matrix, as the formula reads."""
 
 import numpy as np
+
 from tests.naive import step
 
 
