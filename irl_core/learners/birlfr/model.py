@@ -169,7 +169,7 @@ def _evidence(
         np.add.at(entries[b], number[one.states[1:]], 1.0)
         here, there = one.states[:-1], one.states[1:]
         went = (mdp.next_states[here] == there[:, None]).argmax(axis=1)
-        np.add.at(moves, (int(one.outcome == "failure"), number[here], went), 1.0)
+        np.add.at(moves[int(one.outcome == "failure")].reshape(-1), number[here] * grid.N_ACTIONS + went, 1.0)
     neighbours = number[mdp.next_states[squares]]
     inside = neighbours < len(squares)
     return _kernels.birlfr.Evidence(
