@@ -31,6 +31,7 @@ def test_a_person_plays_ranks_learns_and_compares(page: Page, base_url: str) -> 
     run_id = page.url.rpartition("/")[2]
     page.locator('[data-part="compare"]').click()
     check_comparison(page, base_url, run_id, learners)
+    expect(page.locator('[data-part="intervals"]')).to_contain_text("Bayesian IRLFR itself expects its plan to earn")
 
 
 def check_mouse_and_keyboard_rank(page: Page) -> None:
