@@ -100,7 +100,7 @@ def _check_counts(mdps: Sequence[GridMdp], counts: Matrix) -> Matrix:
     if len(shapes) > 1:
         raise InvalidModel(f"The grids of a fit have one size; here are {sorted(shapes)}.", field="mdps")
     try:
-        checked: Matrix = np.ascontiguousarray(counts, dtype=np.float64)
+        checked: Matrix = np.array(counts, dtype=np.float64, order="C")
     except (TypeError, ValueError):
         raise InvalidReward("counts must be numbers, shape (worlds, states).", field="counts") from None
     wanted = (len(mdps), mdps[0].n_states)

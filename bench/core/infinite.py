@@ -18,7 +18,7 @@ from irl_core.inference.path_infinite import infer_path_infinite_batch
 from irl_core.maxent import fit_maxent
 from irl_core.mdp.grid import GridMdp
 
-N_WORLDS = 4096
+N_WORLDS = 1024
 _WORTH = "R = −log 4 − cost, costs of red 0.5…3.5, of blue 0.02…0.5"
 
 
@@ -52,7 +52,7 @@ def batched() -> Figure:
 
 def fitted() -> Iterator[Figure]:
     """Newton to ‖g‖∞ ≤ 1e-6 on three attempts a world."""
-    mdps = [generate_world(seed).mdp for seed in range(N_WORLDS // 4)]
+    mdps = [generate_world(seed).mdp for seed in range(N_WORLDS)]
     counts = three_attempts(mdps)
     fit = fit_maxent(mdps, counts)
     if not (fit.gap <= 1e-6).all():

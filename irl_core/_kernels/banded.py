@@ -96,8 +96,9 @@ def _solve_transposed(band, x, b):
 @njit(cache=True, error_model="numpy")
 def mark_each_way(kinds, starts):
     """`mark_the_way` for B grids, (B, rows, cols)."""
+    stack = np.empty(starts[0].size, dtype=np.int32)
     for world in range(len(kinds)):
-        mark_the_way(kinds[world], starts[world])
+        mark_the_way(kinds[world], starts[world], stack)
 
 
 @njit(cache=True, error_model="numpy")
@@ -109,6 +110,7 @@ def solve_worlds(kinds, pays, inverse, starts, slips, log_partition, policy, vis
     """
     n_worlds, rows, cols = kinds.shape
     n = rows * cols
+    begun = starts.reshape(n_worlds, n)
     band, z, x = np.zeros((n, cols + 1, LANES)), np.zeros((n, LANES)), np.zeros((n, LANES))
     trusted = np.ones(n_worlds, dtype=np.bool_)
     is_positive = np.ones(LANES, dtype=np.bool_)
@@ -124,7 +126,7 @@ def solve_worlds(kinds, pays, inverse, starts, slips, log_partition, policy, vis
             world = first + lane
             trusted[world] = is_positive[lane]
             for s in range(n):
-                begins = starts[world, s // cols, s % cols]
+                begins = begun[world, s]
                 x[s, lane] = 0.0
                 if begins > 0.0 and trusted[world]:
                     x[s, lane] = begins / z[s, lane]
@@ -137,7 +139,7 @@ def solve_worlds(kinds, pays, inverse, starts, slips, log_partition, policy, vis
                 )
             log_partition[world] = 0.0
             for s in range(n):
-                begins = starts[world, s // cols, s % cols]
+                begins = begun[world, s]
                 if begins > 0.0 and trusted[world]:
                     log_partition[world] += begins * math.log(z[s, lane])
     return trusted

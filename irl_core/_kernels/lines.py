@@ -32,10 +32,9 @@ _STEP, _SWEEPS = 32, 16
 
 
 @njit(cache=True, error_model="numpy")
-def mark_the_way(kind, starts):
-    """Turn each FREE square that a start (starts > 0) leads to into ON_THE_WAY."""
+def mark_the_way(kind, starts, stack):
+    """Turn each FREE square that a start (starts > 0) leads to into ON_THE_WAY; `stack` is room for S numbers."""
     rows, cols = kind.shape
-    stack = np.empty(rows * cols, dtype=np.int32)
     n = 0
     for i in range(rows):
         for j in range(cols):

@@ -27,6 +27,7 @@ def fit_worlds(kinds, counts, starts, first_weight, l2, tolerance, max_iteration
     """Fill weights (B, S), iterations, gaps and log-likelihoods (B,). `kinds`, `counts`, `starts`: (B, rows, cols)."""
     n_worlds, rows, cols = kinds.shape
     n = rows * cols
+    observed, begun = counts.reshape(n_worlds, n), starts.reshape(n_worlds, n)
     band, wide = np.zeros((n, cols + 1, LANES)), np.zeros((n, 2 * cols + 1, LANES))
     z, x, visits = np.zeros((n, LANES)), np.zeros((n, LANES)), np.zeros((n, LANES))
     law, gradient = np.zeros((n, 5, LANES)), np.zeros((n, LANES))
@@ -41,8 +42,7 @@ def fit_worlds(kinds, counts, starts, first_weight, l2, tolerance, max_iteration
             is_open[lane] = lane < n_live
             best[lane], slope[lane], size[lane] = np.inf, 0.0, 0.0
             for s in range(n):
-                i, j = s // cols, s % cols
-                on_the_way = kinds[world, i, j] == ON_THE_WAY
+                on_the_way = kinds[world, s // cols, s % cols] == ON_THE_WAY
                 tried[s, lane] = first_weight if on_the_way else 0.0
                 step[s, lane] = 0.0
         while is_open.any():
@@ -53,7 +53,7 @@ def fit_worlds(kinds, counts, starts, first_weight, l2, tolerance, max_iteration
             factorise_lanes(band, is_positive)
             solve_lanes(band, z)
             for lane in range(n_live):
-                _adjoint_source(starts[first + lane], z, x, is_positive, lane)
+                _adjoint_source(begun[first + lane], z, x, is_positive, lane)
             solve_lanes(band, x)
             for lane in range(n_live):
                 world = first + lane
@@ -62,13 +62,13 @@ def fit_worlds(kinds, counts, starts, first_weight, l2, tolerance, max_iteration
                     continue
                 value = np.inf
                 if is_positive[lane]:
-                    value = _value(counts[world], starts[world], tried, z, l2, lane)
+                    value = _value(observed[world], begun[world], tried, z, l2, lane)
                 bound = best[lane] + _ARMIJO * size[lane] * slope[lane] + _SLACK * (1.0 + abs(best[lane]))
                 if value <= bound or (best[lane] == np.inf and value < np.inf):
                     is_better[lane] = True
                     best[lane] = value
                     _visits_and_law(kinds[world], tried, z, x, visits, law, lane)
-                    gap = _gradient(counts[world], tried, visits, l2, gradient, lane)
+                    gap = _gradient(observed[world], tried, visits, l2, gradient, lane)
                     for s in range(n):
                         weights[world, s] = tried[s, lane]
                     gaps[world] = gap
@@ -110,22 +110,20 @@ def _prepare_lane(kind, tried, band, z, lane):
 
 @njit(cache=True, error_model="numpy")
 def _adjoint_source(starts, z, x, is_positive, lane):
-    cols = starts.shape[1]
     for s in range(len(z)):
-        begins = starts[s // cols, s % cols]
+        begins = starts[s]
         x[s, lane] = begins / z[s, lane] if begins > 0.0 and is_positive[lane] else 0.0
 
 
 @njit(cache=True, error_model="numpy")
 def _value(counts, starts, tried, z, l2, lane):
     """Σ ρ_0 log z − w·μ̃ + l2/2 |w|²; infinite where numbers left the floats."""
-    cols = starts.shape[1]
     value = 0.0
     for s in range(len(z)):
-        begins, w = starts[s // cols, s % cols], tried[s, lane]
+        begins, w = starts[s], tried[s, lane]
         if begins > 0.0:
             value += begins * math.log(z[s, lane]) if z[s, lane] > 0.0 else np.inf
-        value += 0.5 * l2 * w * w - counts[s // cols, s % cols] * w
+        value += 0.5 * l2 * w * w - counts[s] * w
     return value if not np.isnan(value) else np.inf
 
 
@@ -157,9 +155,9 @@ def _visits_and_law(kind, tried, z, x, visits, law, lane):
 @njit(cache=True, error_model="numpy")
 def _gradient(counts, tried, visits, l2, gradient, lane):
     """Fill g = μ − μ̃ + l2 w; answers ‖g‖∞."""
-    cols, gap = counts.shape[1], 0.0
+    gap = 0.0
     for s in range(len(visits)):
-        gradient[s, lane] = visits[s, lane] - counts[s // cols, s % cols] + l2 * tried[s, lane]
+        gradient[s, lane] = visits[s, lane] - counts[s] + l2 * tried[s, lane]
         gap = max(gap, abs(gradient[s, lane]))
     return gap
 
@@ -182,8 +180,9 @@ def _newton_matrix(visits, law, l2, cols, band, n_live):
                 if a != _STAY:
                     band[min(s, to), abs(offsets[a]), lane] -= l2 * p
                 for b in range(a):
-                    both = p * law[s, b, lane]
-                    other = s + offsets[b]
+                    if law[s, b, lane] == 0.0:  # it may lie beyond the grid
+                        continue
+                    both, other = p * law[s, b, lane], s + offsets[b]
                     spread = visits[s, lane] * both
                     band[to, 0, lane] += spread
                     band[other, 0, lane] += spread

@@ -70,10 +70,11 @@ def infer_path_infinite(mdp: GridMdp, reward: object, *, starts: Vector) -> Infe
     Off the way (walls, goals, squares no start leads to) the policy is uniform and the visits are 0. Raises
     DivergentPartition where the sum is infinite, InvalidReward, and InvalidModel where a start sees no goal.
     """
-    checked = check_reward(reward, n_states=mdp.n_states)
     shape = (mdp.rows, mdp.cols)
-    kind = _kinds([mdp], starts[None])[0]
-    log_z, visits = _solve(mdp, kind, checked.reshape(shape), np.ascontiguousarray(starts).reshape(shape))
+    # copies: a read-only array is another type to Numba, which would compile everything once more
+    own_reward, own_starts = check_reward(reward, n_states=mdp.n_states).copy(), starts.copy()
+    kind = _kinds([mdp], own_starts[None])[0]
+    log_z, visits = _solve(mdp, kind, own_reward.reshape(shape), own_starts.reshape(shape))
     policy = np.empty((*shape, mdp.n_actions))
     _kernels.lines.path_policy(kind, log_z, float(mdp.slip), policy)
     begins = np.flatnonzero(starts)
@@ -88,19 +89,19 @@ def infer_path_infinite_batch(mdps: Sequence[GridMdp], rewards: Matrix, *, start
     """
     n_worlds, n_states = rewards.shape
     shape = (n_worlds, mdps[0].rows, mdps[0].cols)
-    begun = np.ascontiguousarray(starts)
+    begun = np.array(starts, order="C")  # writable, as Numba has compiled it
     kinds = _kinds(mdps, begun)
-    clipped = np.clip(rewards, -600.0, 600.0)  # what was clipped leaves the trusted range and is solved apart
+    with np.errstate(over="ignore", under="ignore"):  # what leaves the range of floats is not trusted, and solved apart
+        pays, inverse = np.exp(rewards), np.exp(-rewards)
     results = np.empty(n_worlds), np.empty((n_worlds, n_states, 4)), np.empty((n_worlds, n_states))
     trusted = _kernels.banded.solve_worlds(
         kinds,
-        np.exp(clipped).reshape(shape),
-        np.exp(-clipped).reshape(shape),
+        pays.reshape(shape),
+        inverse.reshape(shape),
         begun.reshape(shape),
         np.array([mdp.slip for mdp in mdps]),
         *results,
     )
-    trusted &= (clipped == rewards).all(axis=1)
     _solve_apart(mdps, rewards, begun, np.flatnonzero(~trusted), results)
     return BatchInferred("path_infinite", *results)
 
@@ -128,7 +129,7 @@ def _kinds(mdps: Sequence[GridMdp], starts: Matrix) -> Kinds:
         kind[list(goals)] = 2
         kind[list(walls)] = 0
     kinds = drawn[which].reshape(-1, rows, cols)
-    _kernels.banded.mark_each_way(kinds, np.ascontiguousarray(starts).reshape(-1, rows, cols))
+    _kernels.banded.mark_each_way(kinds, starts.reshape(-1, rows, cols))
     return kinds
 
 
