@@ -32,9 +32,9 @@ HELPERS_OF_TYPES = {"HasStates", "HasTable"}  # what type checkers are told of a
 ENTRY = re.compile(r"\*\*`(\w+)(\([^`]*\))?`\*\*")
 
 
-@pytest.mark.parametrize("page", ["tutorial.md", "api.md"])
-def test_the_page_runs_and_prints_what_it_shows(page: str, capsys: pytest.CaptureFixture[str]) -> None:
-    code = run_docs.main(DOCS / page, write=False)
+@pytest.mark.parametrize("doc", ["tutorial.md", "api.md"])
+def test_the_page_runs_and_prints_what_it_shows(doc: str, capsys: pytest.CaptureFixture[str]) -> None:
+    code = run_docs.main(DOCS / doc, write=False)
     assert code == 0, capsys.readouterr().out
 
 
@@ -49,9 +49,9 @@ def test_the_last_place_of_a_figure_may_differ_by_one(shown: str) -> None:
     assert run_docs.is_as_shown(run_docs.Block(line=1, code="", shown=shown, varies=False), "ends 0.50 in 4\n")
 
 
-@pytest.mark.parametrize("page", PAGES)
-def test_every_link_of_a_page_leads_somewhere(page: str) -> None:
-    links = re.findall(r"\]\(([^)#]+)[^)]*\)", (DOCS / page).read_text(encoding="utf-8"))
+@pytest.mark.parametrize("doc", PAGES)
+def test_every_link_of_a_page_leads_somewhere(doc: str) -> None:
+    links = re.findall(r"\]\(([^)#]+)[^)]*\)", (DOCS / doc).read_text(encoding="utf-8"))
     assert not [link for link in links if "://" not in link and not (DOCS / link).exists()]
 
 
