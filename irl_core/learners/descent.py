@@ -28,9 +28,9 @@ w_D + w_F
 H = φᵀ Cov φ the curvature of log Z: MEIRL's descent with heavy-ball momentum (Polyak 1964), H/λ its factor. What the
 failures were decides where it sets out (w_F in the first iterations) and nothing else. Momentum speeds the descent
 while its factor is below 1 and never dies out from there on: λ has to stay above σ, the largest eigenvalue of H, which
-differs between worlds and along a run. The paper's λ_min knows nothing of σ; with `lambda_rule="curvature"` the λ of
-line 13 is max(λ, σ), where one step of the power method an iteration, v ← Hv / ‖Hv‖, follows σ, Hv by a central
-difference of φᵀμ^π.
+differs between worlds and along a run, of which the paper's λ_min knows nothing. With `lambda_rule="curvature"` the λ
+of line 13 is max(λ, 2σ), half the momentum at which it would never die out, since σ moves from one iteration to the
+next. σ is followed by four steps of the power method an iteration, v ← Hv / ‖Hv‖, Hv by a central difference of φᵀμ^π.
 
 *A fixed point of IRLF is one of MEIRL*: w_D moves until φᵀμ^π = μ̃ᴰ whatever w_F is, so failures change the way, not
 the end. Their gain at a given number of iterations is faster descent; beyond the critical λ it oscillates.
@@ -60,6 +60,8 @@ from irl_core.weights import feature_counts, start_counts
 WEIGHT_LIMIT: Final = 1e6
 WIDE_GAP: Final = 0.5
 """In visits of one square: from here on the sentence warns."""
+_TIMES_CURVATURE: Final = 2.0
+_POWER_STEPS: Final = 4
 _DIFFERENCE: Final = 1e-4
 _BELOW_DIVERGENCE: Final = 0.25
 """Paths of any length start from the constant reward −log A − this, where their sum is finite."""
@@ -261,25 +263,30 @@ def _descended(problem: LearningProblem, state: LearningState, aims: Aims, momen
     if aims.failures is None or moment.failure_counts is None:
         return values
     if settings.lambda_rule == "curvature":
-        values["curvature_vector"], curvature = _power_step(problem, state, aims)
-        lam = max(lam, curvature)
+        values["curvature_vector"], curvature = _largest_curvature(problem, state, aims)
+        lam = max(lam, _TIMES_CURVATURE * curvature)
     values["w_failure"] = (moment.failure_counts - aims.failures) / lam
     return values
 
 
-def _power_step(problem: LearningProblem, state: LearningState, aims: Aims) -> tuple[Vector, float]:
-    """One step of the power method on H: the next v, of length 1, and ‖Hv‖."""
+def _largest_curvature(problem: LearningProblem, state: LearningState, aims: Aims) -> tuple[Vector, float]:
+    """The power method on H, from where the last iteration left it: v, of length 1, and σ ≈ ‖Hv‖."""
     weights, starts = _weights(state), aims.starts if aims.failure_starts is None else aims.failure_starts
     v = state.values.get("curvature_vector")
     if not isinstance(v, np.ndarray):
         v = np.full(len(weights), len(weights) ** -0.5)
-    there, back = (
-        problem.features.counts(_infer(problem, weights + h * v, starts).visitation)
-        for h in (_DIFFERENCE, -_DIFFERENCE)
-    )
-    h_times_v: Vector = (there - back) / (2 * _DIFFERENCE)
-    length = float(np.linalg.norm(h_times_v))
-    return (h_times_v / length if length > 0.0 else v), length
+    length = 0.0
+    for _ in range(_POWER_STEPS):
+        there, back = (
+            problem.features.counts(_infer(problem, weights + h * v, starts).visitation)
+            for h in (_DIFFERENCE, -_DIFFERENCE)
+        )
+        h_times_v: Vector = (there - back) / (2 * _DIFFERENCE)
+        length = float(np.linalg.norm(h_times_v))
+        if length == 0.0:
+            break
+        v = h_times_v / length
+    return v, length
 
 
 def _weights(state: LearningState) -> Vector:

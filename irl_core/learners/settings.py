@@ -81,8 +81,8 @@ class Settings:
         "schedule",
         symbol="λ",
         choices=("schedule", "curvature"),
-        help="Follow the paper's schedule; or besides keep λ above the curvature, where failures cannot make learning"
-        " oscillate, whatever λ_min.",
+        help="Follow the paper's schedule; or besides keep λ at twice the curvature or more, where failures hardly make"
+        " learning oscillate.",
     )
     initial_weights: Literal["zero", "uniform"] = _choice(
         "zero",

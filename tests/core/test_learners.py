@@ -233,7 +233,7 @@ def test_the_rule_of_curvature_follows_the_largest_eigenvalue_and_keeps_irlf_fro
     learner = LEARNERS["irlf"]
     state = learner.advance(problem, learner.start(problem), iterations=200)
     aims = descent.aims_of(problem, uses_ranking=False, uses_failures=True)
-    _, curvature = descent._power_step(problem, state, aims)
+    _, curvature = descent._largest_curvature(problem, state, aims)
     reward, h = state.vector("w_success") + state.vector("w_failure"), 1e-5
     hessian = [
         visitation(problem.world, soft_plan(problem.world, reward + h * e))
