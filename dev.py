@@ -118,7 +118,7 @@ def set_up(*, dev: bool = False) -> None:
         if dev:  # `run` serves pages at once; there the worker compiles when it starts
             kernels = sorted(str(path.relative_to(ROOT)) for path in ROOT.glob("irl_core/_kernels/*.py"))
             compile_them: Command = [PYTHON, "-c", "import irl_core; irl_core.warm_up()"]
-            once("compiled kernels", kernels, lambda: call("compiled kernels", compile_them))
+            once("compiled kernels", kernels, lambda: compile_afresh(compile_them))
 
 
 def set_up_javascript_tools() -> None:
@@ -158,6 +158,13 @@ def install_requirements(files: list[str]) -> None:
 
 def install_project() -> None:
     call("the project", [*pip(), "install", "--quiet", "--no-deps", "--no-build-isolation", "--editable", "."])
+
+
+def compile_afresh(command: Command) -> None:
+    """Compile the kernels. Numba keeps what it compiled until its own file changes, even if one it imports did."""
+    for kept in ROOT.glob("irl_core/_kernels/__pycache__/*.nb[ic]"):
+        kept.unlink()
+    call("compiled kernels", command)
 
 
 def pip() -> Command:

@@ -18,7 +18,7 @@ cli = typer.Typer(
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
-    help="Play a gridworld, fail, rank your attempts, and watch four algorithms learn from them.",
+    help="Play a gridworld, fail, rank your attempts, and watch algorithms learn from them.",
 )
 
 BAD_INPUT = 2

@@ -10,6 +10,7 @@ from irl_core.errors import (
     InvalidFeatures,
     InvalidFile,
     InvalidModel,
+    InvalidPolicy,
     InvalidRanking,
     InvalidReward,
     InvalidSettings,
@@ -51,6 +52,7 @@ from irl_core.learners import (
     learn,
 )
 from irl_core.mdp import GridMdp, Mdp, SparseMdp
+from irl_core.mdp.toy_text import from_gymnasium
 from irl_core.planning import HardPlan, SoftPlan, hard_plan, soft_plan, spectral_radius, visitation
 from irl_core.trajectories import demonstration_of
 from irl_core.types import Demonstration, Ranking, World
@@ -76,6 +78,7 @@ __all__ = [
     "InvalidFeatures",
     "InvalidFile",
     "InvalidModel",
+    "InvalidPolicy",
     "InvalidRanking",
     "InvalidReward",
     "InvalidSettings",
@@ -103,6 +106,7 @@ __all__ = [
     "expected_visits",
     "feature_counts",
     "features_of",
+    "from_gymnasium",
     "generate_world",
     "greedy_plan",
     "hard_plan",

@@ -1,4 +1,4 @@
-"""The four learners: what they compute, how they end, that they can be interrupted, what they refuse."""
+"""The paper's four learners: what they compute, how they end, that they can be interrupted, what they refuse."""
 
 import json
 
