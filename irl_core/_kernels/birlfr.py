@@ -3,7 +3,7 @@
 The mathematics and the letters are those of `irl_core.learners.birlfr.model`. Open squares are 0 … n − 1 in the order
 of the band, goals n … n + G − 1. A position q, standard normal a priori, is laid out
 
-    z (n) | z_m (K) | z_σ (K) | β, κ, η of successes and of failures (6) | worths of goals 1 … G − 1.
+    z (n) | z_m (K) | β, κ (or h), η of successes and of failures (6) | worths of goals 1 … G − 1.
 """
 
 import math
@@ -16,6 +16,9 @@ LOG_FOUR = math.log(4.0)
 LOWEST = 1e-250  # of a path sum that is kept: below, what β and κ say has long been said
 HIGHEST = 600.0  # of an exponent
 LOG_HIGHEST = math.log(HIGHEST)
+ROOT_HALF = math.sqrt(0.5)
+DENSITY_AT_0 = 1.0 / math.sqrt(2.0 * math.pi)
+STEPS_SEEN = 3  # H
 
 
 class Evidence(NamedTuple):
@@ -28,6 +31,7 @@ class Evidence(NamedTuple):
     goals: np.ndarray  # (B,) int32: the goal reached, n …, or −1
     moves: np.ndarray  # (2, n, 4): how often successes and failures went each way
     pairs: np.ndarray  # (P, 2) int32: the better and the worse of two attempts
+    distances: np.ndarray  # (n,): the fewest steps from each square to a goal
     width: int  # of the band
 
 
@@ -36,8 +40,9 @@ class Prior(NamedTuple):
 
     class_means: np.ndarray  # (K,)
     class_spread: float
-    square_spread: float
-    spread_of_spread: float
+    lowest: np.ndarray  # (K,)
+    highest: np.ndarray  # (K,)
+    square_spread: float  # of one class; unused with two
     label_width: float
     rank_width: float
     flip_rate: float
@@ -46,6 +51,9 @@ class Prior(NamedTuple):
     log_beta_spread: float
     log_kappa: float
     log_kappa_spread: float
+    log_ahead: float
+    log_ahead_spread: float
+    looks_ahead: float
     lapse: float
     lapse_spread: float
     log_worth_spread: float
@@ -100,7 +108,7 @@ def log_posterior(q, gradient, costs, evidence, prior):
         return -np.inf
     by_cost = np.zeros(n + n_goals)
     value += _labels_and_ranks(costs, by_cost, evidence, prior)
-    first_choice = n + 2 * len(prior.class_means)
+    first_choice = n + len(prior.class_means)
     for kind in range(2):
         value += _choices(q, gradient, costs, by_cost, kind, first_choice, evidence, prior)
     _through_costs(q, gradient, costs, by_cost, n, n_goals, evidence, prior)
@@ -113,14 +121,18 @@ def _costs(q, costs, n, n_goals, evidence, prior):
     n_classes = len(prior.class_means)
     for i in range(n):
         k = evidence.colours[i]
-        spread = prior.square_spread * math.exp(prior.spread_of_spread * q[n + n_classes + k])
-        exponent = prior.class_means[k] + prior.class_spread * q[n + k] + spread * q[i]
+        exponent = prior.class_means[k] + prior.class_spread * q[n + k]
+        if n_classes == 1:
+            exponent += prior.square_spread * q[i]
         if not abs(exponent) < HIGHEST:
             return False
         costs[i] = math.exp(exponent)
+        if n_classes > 1:
+            below = 0.5 * math.erfc(-q[i] * ROOT_HALF)
+            costs[i] *= prior.lowest[k] + (prior.highest[k] - prior.lowest[k]) * below
     costs[n] = 0.0
     for j in range(1, n_goals):
-        exponent = prior.log_worth_spread * q[n + 2 * n_classes + 5 + j]
+        exponent = prior.log_worth_spread * q[n + n_classes + 5 + j]
         if not abs(exponent) < HIGHEST:
             return False
         costs[n + j] = 1.0 - math.exp(exponent)
@@ -133,13 +145,16 @@ def _through_costs(q, gradient, costs, by_cost, n, n_goals, evidence, prior):
     n_classes = len(prior.class_means)
     for i in range(n):
         k = evidence.colours[i]
-        spread = prior.square_spread * math.exp(prior.spread_of_spread * q[n + n_classes + k])
         by_log = by_cost[i] * costs[i]
-        gradient[i] += by_log * spread
         gradient[n + k] += by_log * prior.class_spread
-        gradient[n + n_classes + k] += by_log * spread * q[i] * prior.spread_of_spread
+        if n_classes == 1:
+            gradient[i] += by_log * prior.square_spread
+        else:
+            unit = math.exp(prior.class_means[k] + prior.class_spread * q[n + k])
+            density = DENSITY_AT_0 * math.exp(-0.5 * q[i] * q[i])
+            gradient[i] += by_cost[i] * unit * (prior.highest[k] - prior.lowest[k]) * density
     for j in range(1, n_goals):
-        gradient[n + 2 * n_classes + 5 + j] += by_cost[n + j] * (costs[n + j] - 1.0) * prior.log_worth_spread
+        gradient[n + n_classes + 5 + j] += by_cost[n + j] * (costs[n + j] - 1.0) * prior.log_worth_spread
 
 
 @njit(cache=True)
@@ -172,31 +187,49 @@ def _labels_and_ranks(costs, by_cost, evidence, prior):
 
 @njit(cache=True)
 def _choices(q, gradient, costs, by_cost, kind, first_choice, evidence, prior):
-    """The tempered log-likelihood of the steps of successes (kind 0) or failures (kind 1); adds to the gradients."""
-    n, n_all, at = len(evidence.neighbours), len(costs), first_choice + 3 * kind
-    if not np.any(evidence.moves[kind] > 0.0):
+    """The tempered log-likelihood of the steps of successes (kind 0) or failures (kind 1); adds to the gradients.
+
+    Of a mixture: its gradients are those of the two ways to choose, each with its share of the explanation.
+    """
+    n, n_all, at, moves = len(evidence.neighbours), len(costs), first_choice + 3 * kind, evidence.moves[kind]
+    if not np.any(moves > 0.0):
         return 0.0
     log_beta = prior.log_beta + prior.log_beta_spread * q[at]
     log_excess = prior.log_kappa + prior.log_kappa_spread * q[at + 1]
-    if not max(log_beta, log_excess) < LOG_HIGHEST:
+    log_ahead = prior.log_ahead + prior.log_ahead_spread * q[at + 1]
+    if not max(log_beta, log_excess, log_beta + log_ahead) < LOG_HIGHEST:
         return -np.inf
-    beta, excess = math.exp(log_beta), math.exp(log_excess)
+    beta, excess, per_step = math.exp(log_beta), math.exp(log_excess), math.exp(log_beta + log_ahead)
     lapse = _logistic(prior.lapse + prior.lapse_spread * q[at + 2])
-    action = np.empty(n_all)
+    meant, by_path, by_look = beta * costs, np.zeros(n_all), np.zeros(n_all)
+    look, look_by_lapse, by_per_step = look_steps(
+        meant, per_step, evidence.distances, evidence.neighbours, moves, lapse, by_look
+    )
+    meant[:n] += LOG_FOUR + excess
+    path, path_by_lapse = log_steps(meant, evidence.neighbours, moves, lapse, evidence.width, by_path)
+    if not path > -np.inf:
+        return -np.inf
+    path = prior.choice_power * path + math.log(1.0 - prior.looks_ahead)
+    look = prior.choice_power * look + math.log(prior.looks_ahead)
+    value = max(path, look) + math.log1p(math.exp(-abs(path - look)))
+    by_path_value = prior.choice_power * math.exp(path - value)
+    by_look_value = prior.choice_power * math.exp(look - value)
+    by_log_beta, by_kappa, by_ahead = (
+        by_look_value * by_per_step * per_step,
+        0.0,
+        by_look_value * by_per_step * per_step,
+    )
     for i in range(n_all):
-        action[i] = beta * costs[i] + (LOG_FOUR + excess if i < n else 0.0)
-    by_action = np.zeros(n_all)
-    value, by_lapse = log_steps(action, evidence.neighbours, evidence.moves[kind], lapse, evidence.width, by_action)
-    by_log_beta, by_kappa = 0.0, 0.0
-    for i in range(n_all):
-        by_cost[i] += prior.choice_power * by_action[i] * beta
-        by_log_beta += by_action[i] * beta * costs[i]
+        by_meant = by_path_value * by_path[i] + by_look_value * by_look[i]
+        by_cost[i] += by_meant * beta
+        by_log_beta += by_meant * beta * costs[i]
         if i < n:
-            by_kappa += by_action[i]
-    gradient[at] += prior.choice_power * by_log_beta * prior.log_beta_spread
-    gradient[at + 1] += prior.choice_power * by_kappa * excess * prior.log_kappa_spread
-    gradient[at + 2] += prior.choice_power * by_lapse * lapse * (1.0 - lapse) * prior.lapse_spread
-    return prior.choice_power * value
+            by_kappa += by_path_value * by_path[i]
+    gradient[at] += by_log_beta * prior.log_beta_spread
+    gradient[at + 1] += by_kappa * excess * prior.log_kappa_spread + by_ahead * prior.log_ahead_spread
+    by_lapse = by_path_value * path_by_lapse + by_look_value * look_by_lapse
+    gradient[at + 2] += by_lapse * lapse * (1.0 - lapse) * prior.lapse_spread
+    return value
 
 
 @njit(cache=True)
@@ -206,35 +239,83 @@ def log_steps(action, neighbours, moves, lapse, width, by_action):
     band, v = np.zeros((n, width + 1)), np.zeros(n)
     if not path_sums(action, neighbours, band, v):
         return -np.inf, 0.0
-    value, by_lapse, g, share = 0.0, 0.0, np.zeros(n), np.empty(4)
+    value, by_lapse, g, share, by_log = 0.0, 0.0, np.zeros(n), np.empty(4), np.empty(4)
     for i in range(n):
         if not np.any(moves[i] > 0.0):
             continue
         for d in range(4):
             j = neighbours[i, d]
             share[d] = math.exp(-action[j]) if j >= n else v[j]
-        share /= share.sum()
-        explained = 0.0
-        for d in range(4):
-            if moves[i, d] > 0.0:
-                chance = max((1.0 - lapse) * share[d] + 0.25 * lapse, LOWEST)
-                value += moves[i, d] * math.log(chance)
-                by_lapse += moves[i, d] * (0.25 - share[d]) / chance
-                explained += moves[i, d] * (1.0 - lapse) * share[d] / chance
+        explained, slope = _steps_from(share, moves[i], lapse, by_log)
+        value += explained
+        by_lapse += slope
         for d in range(4):
             j = neighbours[i, d]
-            chance = max((1.0 - lapse) * share[d] + 0.25 * lapse, LOWEST)
-            by_log = share[d] * (moves[i, d] * (1.0 - lapse) / chance - explained)
             if j >= n:
-                by_action[j] -= by_log
+                by_action[j] -= by_log[d]
             else:
-                g[j] += by_log / v[j]
+                g[j] += by_log[d] / v[j]
     _solve(band, g)
     for i in range(n):
         by_action[i] -= g[i] * v[i] * math.exp(action[i])
         for d in range(4):
             if neighbours[i, d] >= n:
                 by_action[neighbours[i, d]] -= g[i] * math.exp(-action[neighbours[i, d]])
+    return value, by_lapse
+
+
+@njit(cache=True)
+def look_steps(action, per_step, distances, neighbours, moves, lapse, by_action):
+    """As `log_steps`, of somebody who sees H steps ahead: value, its slopes in η and in βh."""
+    n = len(neighbours)
+    if not STEPS_SEEN * -action.min() < HIGHEST:
+        return -np.inf, 0.0, 0.0
+    entered, u, g = np.exp(-action), np.ones((STEPS_SEEN + 1, len(action))), np.zeros((STEPS_SEEN, len(action)))
+    u[0, :n] = np.exp(-per_step * distances)
+    for k in range(1, STEPS_SEEN + 1):
+        for i in range(n):
+            u[k, i] = 0.0
+            for d in range(4):
+                u[k, i] += entered[neighbours[i, d]] * u[k - 1, neighbours[i, d]]
+    if not u.min() > LOWEST:
+        return -np.inf, 0.0, 0.0
+    value, by_lapse, share, by_log, last = 0.0, 0.0, np.empty(4), np.empty(4), STEPS_SEEN - 1
+    for i in range(n):
+        if not np.any(moves[i] > 0.0):
+            continue
+        for d in range(4):
+            share[d] = entered[neighbours[i, d]] * u[last, neighbours[i, d]]
+        explained, slope = _steps_from(share, moves[i], lapse, by_log)
+        value += explained
+        by_lapse += slope
+        for d in range(4):
+            by_action[neighbours[i, d]] -= by_log[d]
+            g[last, neighbours[i, d]] += by_log[d] / u[last, neighbours[i, d]]
+    for k in range(last, 0, -1):
+        for i in range(n):
+            for d in range(4):
+                j = neighbours[i, d]
+                by_action[j] -= g[k, i] * entered[j] * u[k - 1, j]
+                g[k - 1, j] += g[k, i] * entered[j]
+    return value, by_lapse, -np.sum(g[0, :n] * u[0, :n] * distances)
+
+
+@njit(cache=True)
+def _steps_from(share, moves, lapse, by_log):
+    """The steps from one square to neighbours of weights `share`, (4,), which are made to sum to 1.
+
+    Gives Σ moves · log((1 − η) share + η / 4) and its slope in η; fills its gradient in the logarithms of the weights.
+    """
+    share /= share.sum()
+    value, by_lapse, explained = 0.0, 0.0, 0.0
+    for d in range(4):
+        chance = max((1.0 - lapse) * share[d] + 0.25 * lapse, LOWEST)
+        value += moves[d] * math.log(chance)
+        by_lapse += moves[d] * (0.25 - share[d]) / chance
+        by_log[d] = moves[d] * (1.0 - lapse) * share[d] / chance
+        explained += by_log[d]
+    for d in range(4):
+        by_log[d] -= share[d] * explained
     return value, by_lapse
 
 

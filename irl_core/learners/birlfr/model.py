@@ -2,10 +2,11 @@
 
 **Costs.** Every square s that can be visited before a goal has a cost c(s) > 0, in units of what the (first) goal pays:
 
-    log c(s) = m_k + σ_k z_s,   m_k = m̄_k − log L + s_m z_{m,k},   σ_k = σ e^{s_σ z_{σ,k}},   every z ~ N(0, 1),
+    c(s) = u_k (a_k + (b_k − a_k) Φ(z_s)),   log u_k = m̄ − log L + s_m z_{m,k},   every z ~ N(0, 1),
 
-where k is the colour that people see (red, blue), or one class for all where colours are ignored or there are none, and
-L the fewest steps from a start to a goal: where attempts both succeed and fail, one of ordinary length costs about 1. A
+where k is the colour that people see and [a_k, b_k] the range of rewards that they are told it stands for (blue up to
+1, red 1 to 7, each equally likely), Φ the normal distribution function, and L the fewest steps from a start to a goal;
+the goal pays about L. Where colours are ignored, or there are none, log c(s) = m̄ − log L + s_m z_m + σ z_s. A
 further goal j pays v_j = e^{s_v z_j}. An attempt i that enters squares s_1, s_2, … before it ends totals
 
     g_i = v − C_i,   C_i = Σ_t c(s_t),   v the worth of the goal it reached, 0 if it reached none.
@@ -17,8 +18,9 @@ which choices alone cannot. A failure that reached no goal failed for that reaso
 ε + (1 − 2ε) σ((g_better − g_worse) / w_r). A tie gives no term: people tie what they cannot or will not tell apart, and
 an equality would be read as knowledge.
 
-**Choices**: an attempt means to follow the distribution over paths of any length (Ziebart et al. 2008; slip cancels,
-see `planning`),
+**Choices**: people see the whole way, or a few steps of it, and it is unknown which: successes have the likelihood
+(1 − p) L_path^ν + p L_look^ν (ν: below), and so have failures. Who sees the whole way means to follow the distribution
+over paths of any length (Ziebart et al. 2008; slip cancels, see `planning`),
 
     P(ζ) = exp(−β Σ_t c(s_t) + β (v − 1) − κ L_ζ) / z(s_0),   L_ζ the squares entered before the goal,
 
@@ -34,6 +36,14 @@ banded LDLᵀ gives v, a second solve with it the gradient,
     K v = b,  K = diag(e^{βc + κ}) − adjacency,  b(s) = Σ e^{β (v_j − 1)} over goals j beside s;
     ∂ (h·log v) / ∂ (βc(s) + κ) = −g(s) v(s) e^{βc(s) + κ},  K g = h / v.
 
+Who *looks H = 3 steps ahead* believes that each step left after those costs h: with d(s) the fewest steps to a goal,
+
+    u_0(s) = e^{−βh d(s)},   u_k(s) = Σ_d e^{−βc(s′_d)} u_{k−1}(s′_d),   u_k(goal) = 1,
+    q(d | s) ∝ e^{−βc(s′_d)} u_{H−1}(s′_d),   log h = log(2 / L) + s_h z.
+
+Such a person is drawn into costly squares that planning would have avoided, which the path distribution must take for
+cheapness. h and κ are made of the same coordinate: within each way to choose it has its own meaning and N(0, 1).
+
 **The power of choices.** Their log-likelihood is multiplied by ν < 1, as in the power posteriors of Miller and Dunson
 (2019) for models that are known to be wrong: who believes something false acts on it at every step, so that steps are
 not so many pieces of evidence. Simulated people who are blind to colour or act on noisy impressions of it are misread
@@ -42,9 +52,14 @@ at ν = 1; labels and ranks are facts of the game and keep their power.
 **Why the posterior mean.** The return of a policy is linear in costs and worths (its expected visits do not depend on
 them), so the plan that is best for the mean cost E[c | data] has the largest expected return under the posterior.
 
-The constants (`PRIOR…`) were chosen on simulated attempts, in worlds that no reported figure is from. Red is taken to
-cost several times as much as blue *a priori* (m̄: e^1.5 = 4.5, give or take a factor of e^{s_m √2} = 1.9): it is what
-people are told. Scores are never used.
+The constants (`PRIOR…`) were chosen on simulated attempts, in worlds that no reported figure is from. Scores
+of squares and totals are never used.
+
+**What helped**, in share of the optimum over 100 worlds of each kind of simulated person, against log-normal costs and
+the path distribution alone: myopic +0.044 ± 0.026, perceptual +0.011 ± 0.018, shortest path +0.011 ± 0.016, mixture
++0.009 ± 0.011, wanderer +0.001 ± 0.002, Boltzmann 0.000 ± 0.003. On myopic people the ranges alone bring 0.004, the
+look ahead alone 0.021. Both are knowledge of how things are here: drawn worlds have such rewards, and simulated myopic
+people see three steps. H need not be right: 2 brings 0.040 there, 4 brings 0.030.
 """
 
 from itertools import pairwise, product
@@ -60,16 +75,18 @@ from irl_core.mdp import GridMdp
 from irl_core.types import RED_BELOW, Demonstration, World
 
 MAX_SQUARES: Final = 400
-PRIOR_BLUE: Final = -0.7
-PRIOR_RED: Final = 0.8
+PRIOR_UNIT: Final = -0.15
+"""The m̄: what 1 point costs, over 1 / L. A goal that pays L + 2 makes it log(12 / 14) where L = 12."""
+BLUE: Final = (0.01, 1.0)
+RED: Final = (1.0, 7.0)
+"""The [a_k, b_k]. Blue begins above 0, so that logarithms exist."""
+PRIOR_CLASS_SPREAD: Final = 0.2
+"""The s_m."""
 PRIOR_ONE_CLASS: Final = -0.2
-"""The m̄_k: log cost over the cost of 1 / L."""
-PRIOR_SPREAD: Final = 0.6
+PRIOR_CLASS_SPREAD_ONE_CLASS: Final = 0.45
 PRIOR_SPREAD_ONE_CLASS: Final = 1.1
-"""The σ: within a colour, or over both."""
+"""m̄, s_m and σ where colours are not used."""
 PRIOR: Final = {
-    "class_spread": 0.45,  # s_m
-    "spread_of_spread": 0.3,  # s_σ
     "label_width": 0.05,  # w_l
     "rank_width": 0.03,  # w_r
     "flip_rate": 0.03,  # ε
@@ -78,6 +95,8 @@ PRIOR: Final = {
     "log_beta_spread": 1.5,
     "log_kappa": float(np.log(0.5)),
     "log_kappa_spread": 2.0,
+    "log_ahead_spread": 0.6,  # s_h
+    "looks_ahead": 0.5,  # p
     "lapse": -2.5,  # the log odds of η: 0.08, give or take a factor of e
     "lapse_spread": 1.0,
     "log_worth_spread": 0.5,  # s_v
@@ -101,7 +120,7 @@ class Model:
         self.evidence = _evidence(problem, self.mdp, self.squares, self.goals, colours)
         self.prior = _prior(self.mdp, n_classes=self.n_classes)
         self.n_costs = len(self.squares) + len(self.goals)
-        self.dimension = len(self.squares) + 2 * self.n_classes + _N_CHOICE + len(self.goals) - 1
+        self.dimension = len(self.squares) + self.n_classes + _N_CHOICE + len(self.goals) - 1
 
     def log_posterior(self, position: Vector) -> tuple[float, Vector, Vector]:
         """Up to a constant; its gradient, shape (dimension,); and the costs, shape (n + G,)."""
@@ -133,12 +152,16 @@ def grid_of(problem: LearningProblem) -> GridMdp:
 
 def _squares(mdp: GridMdp) -> IntVector:
     """The open squares from which a goal can be reached, numbered along the shorter side: the band is as wide."""
-    both_ways = grid.neighbours(mdp.rows, mdp.cols, goals=(), walls=mdp.walls)
     order = np.arange(mdp.n_states)
     if mdp.rows < mdp.cols:
         order = order.reshape(mdp.rows, mdp.cols).T.reshape(-1)
-    can_arrive = grid.distances_from(both_ways, np.array(mdp.goals)) >= 0
-    return order[(can_arrive & ~mdp.terminal & ~mdp.blocked)[order]]
+    return order[((_distances(mdp) >= 0) & ~mdp.terminal & ~mdp.blocked)[order]]
+
+
+def _distances(mdp: GridMdp) -> IntVector:
+    """The fewest steps from each state to a goal, shape (S,); −1 where there is no way."""
+    both_ways = grid.neighbours(mdp.rows, mdp.cols, goals=(), walls=mdp.walls)
+    return grid.distances_from(both_ways, np.array(mdp.goals))
 
 
 def _colours(problem: LearningProblem, squares: IntVector) -> IntVector | None:
@@ -150,10 +173,16 @@ def _colours(problem: LearningProblem, squares: IntVector) -> IntVector | None:
 
 def _prior(mdp: GridMdp, *, n_classes: int) -> Any:  # noqa: ANN401 - a NamedTuple of the kernel module, loaded late
     steps = grid.distances_from(mdp.next_states, mdp.start_states)[list(mdp.goals)]
-    relative = (PRIOR_BLUE, PRIOR_RED) if n_classes > 1 else (PRIOR_ONE_CLASS,)
+    log_length = np.log(steps[steps > 0].min())
+    has_colours = n_classes > 1
+    lowest, highest = np.array((BLUE, RED) if has_colours else ((0.0, 0.0),)).T.copy()
     return _kernels.birlfr.Prior(
-        class_means=np.array(relative) - np.log(steps[steps > 0].min()),
-        square_spread=PRIOR_SPREAD if n_classes > 1 else PRIOR_SPREAD_ONE_CLASS,
+        class_means=np.full(n_classes, PRIOR_UNIT if has_colours else PRIOR_ONE_CLASS) - log_length,
+        class_spread=PRIOR_CLASS_SPREAD if has_colours else PRIOR_CLASS_SPREAD_ONE_CLASS,
+        lowest=lowest,
+        highest=highest,
+        square_spread=PRIOR_SPREAD_ONE_CLASS,
+        log_ahead=np.log(2.0) - log_length,
         **PRIOR,
     )
 
@@ -180,6 +209,7 @@ def _evidence(
         goals=np.array([number[one.states[-1]] if one.reached_goal else -1 for one in attempts], dtype=np.int32),
         moves=moves,
         pairs=_pairs(problem, {one.id: b for b, one in enumerate(attempts)}),
+        distances=_distances(mdp)[squares].astype(np.float64),
         width=int(np.where(inside, np.abs(neighbours - np.arange(len(squares))[:, None]), 0).max()),
     )
 
