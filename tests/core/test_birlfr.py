@@ -110,6 +110,18 @@ def test_the_path_sum_is_that_of_planning_with_a_long_horizon():
     assert np.log(v[model.squares == world.start][0]) == pytest.approx(plan.log_partition, abs=1e-10)
 
 
+def test_a_look_three_steps_ahead_solved_by_hand():
+    """Two squares in a row, the goal behind the second; squares cost nothing, each step beyond halves the weight.
+
+    u_0 = (1/4, 1/2), u_1 = (3/4 + 1/2, 1 + 1 + 1/4), u_2 = (15/4 + 9/4, 9/2 + 1 + 5/4): right weighs 27/4 of 99/4.
+    """
+    neighbours = np.array([[0, 1, 0, 0], [1, 2, 1, 0]], dtype=np.int32)
+    moves = np.array([[0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0]])
+    distances = np.array([2.0, 1.0])
+    value, _, _ = _kernels.birlfr.look_steps(np.zeros(3), math.log(2.0), distances, neighbours, moves, 0.0, np.zeros(3))
+    assert value == pytest.approx(math.log(3.0 / 11.0), abs=1e-12)
+
+
 def one_way(world):
     """The shortest way to the goal, as an attempt."""
     plan = greedy_plan(world, np.where(np.arange(world.n_states) == world.goal, 1.0, -1.0))
