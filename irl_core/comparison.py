@@ -13,11 +13,14 @@ from typing import Any, Final
 
 import numpy as np
 
+from irl_core.array_checks import check_whole
 from irl_core.arrays import Policy
+from irl_core.checks import shown
+from irl_core.errors import InvalidSettings
 from irl_core.evaluation import Rollout, expected_return, greedy_plan, optimal_plan, rollouts
 from irl_core.learners import LEARNERS, LearningResult
 from irl_core.planning import HardPlan
-from irl_core.types import Demonstration, World
+from irl_core.types import MAX_SEED, Demonstration, World, check_demonstrations, check_world
 
 HUMAN: Final = "human"
 OPTIMAL: Final = "optimal"
@@ -88,13 +91,18 @@ def compare(
     seed: int,
     n_episodes: int = 50,
 ) -> Comparison:
-    """Measure everybody on the world. Each player's episodes are drawn from the seed and their name alone."""
-    human = tuple(_as_rollout(one) for one in demonstrations)
+    """Measure everybody on the world. Each player's episodes are drawn from the seed and their name alone.
+
+    Raises InvalidModel, ImpossibleDemonstration, InvalidPolicy, InvalidSettings.
+    """
+    check_world(world)
+    check_whole("seed", seed, minimum=0, maximum=MAX_SEED)
+    human = tuple(_as_rollout(one) for one in check_demonstrations(demonstrations))
     best_plan = optimal_plan(world)
     best = float(best_plan.values[-1, world.start])
     episodes = {HUMAN: human} if human else {}
     entries = [_human_entry(human)] if human else []
-    for result in results:
+    for result in _checked(results):
         name = result.learner
         episodes[name] = _play(world, result.policy, name, seed=seed, n_episodes=n_episodes)
         expected = expected_return(world, result.policy)
@@ -102,6 +110,15 @@ def compare(
     episodes[OPTIMAL] = _play(world, best_plan, OPTIMAL, seed=seed, n_episodes=n_episodes)
     entries.append(_entry(OPTIMAL, episodes[OPTIMAL], expected=best, greedy=best))
     return Comparison(seed, world.horizon, _placed(entries, optimum=best), episodes)
+
+
+def _checked(results: object) -> tuple[LearningResult, ...]:
+    """Results of learning, from any list of them."""
+    listed = tuple(results) if isinstance(results, Iterable) else (results,)
+    for one in listed:
+        if not isinstance(one, LearningResult) or not isinstance(results, Iterable):
+            raise InvalidSettings(f"results must be a list of LearningResult, not {shown(one)}.", field="results")
+    return listed
 
 
 def places(scores: Sequence[float], *, tolerance: float) -> list[int]:

@@ -4,6 +4,7 @@
     ├── InvalidModel               numbers that make no Markov decision process
     │   └── InvalidWorld           a size, reward, wall, goal or horizon that makes no world
     ├── InvalidReward              a reward that is not S finite numbers
+    ├── InvalidPolicy              a policy that is not S × A probabilities
     ├── InvalidFeatures            a feature map of the wrong shape, or one that cannot tell weights apart
     ├── DivergentPartition         the sum over paths of any length is infinite for this reward
     ├── ImpossibleDemonstration    an attempt that cannot have happened in its world
@@ -31,6 +32,10 @@ class InvalidModel(IrlError):
 
 class InvalidReward(IrlError):
     """This is not a reward for this model."""
+
+
+class InvalidPolicy(IrlError):
+    """This is not a policy, or not a plan, for this model."""
 
 
 class InvalidFeatures(IrlError):

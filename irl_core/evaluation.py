@@ -15,9 +15,12 @@ from typing import Any
 import numpy as np
 
 from irl_core import grid, sparse_evaluation
+from irl_core.array_checks import check_discount, check_generator, check_reward, check_whole
 from irl_core.arrays import BoolVector, IntVector, Matrix, Policy, Vector
-from irl_core.mdp import GridMdp, SparseMdp, as_mdp
-from irl_core.planning import HardPlan, direction_law, hard_plan
+from irl_core.checks import shown
+from irl_core.errors import InvalidModel
+from irl_core.mdp import GridMdp, Mdp, SparseMdp, as_mdp, start_distribution
+from irl_core.planning import HardPlan, check_executable, direction_law, hard_plan
 from irl_core.types import World
 
 
@@ -35,7 +38,12 @@ class Rollout:
 
 
 def expected_return(world: World | SparseMdp, policy: Policy | HardPlan, *, horizon: int | None = None) -> float:
-    """V_N(start), exact; N is the world's horizon unless said otherwise (and a plan's own horizon at most)."""
+    """V_N(start), exact; N is the world's horizon unless said otherwise (and a plan's own horizon at most).
+
+    Raises InvalidPolicy, InvalidModel, InvalidSettings.
+    """
+    _check_pays(world)
+    policy = check_executable(policy, world)
     if isinstance(world, SparseMdp):
         return sparse_evaluation.expected_return(world, policy, horizon=_n_steps(world, policy, horizon))
     value: Vector = np.zeros(world.n_states)
@@ -56,9 +64,12 @@ def expected_visits(
 ) -> Vector:
     """How often each state is visited on average when the policy is executed, start and goal included, shape (S,).
 
-    `starts`, shape (S,), is the model's own unless given; a visit at step t counts γ^t with a discount γ.
+    `starts`, shape (S,), is the model's own unless given; a visit at step t counts γ^t with a discount γ in (0, 1].
+    Raises InvalidPolicy, InvalidModel, InvalidSettings.
     """
-    begun: Vector = as_mdp(world).starts if starts is None else starts
+    mdp = as_mdp(world)
+    policy, discount = check_executable(policy, mdp), check_discount(discount)
+    begun = mdp.starts if starts is None else _starts(mdp, starts)
     n_steps = _n_steps(world, policy, horizon)
     if isinstance(world, SparseMdp):
         return sparse_evaluation.expected_visits(world, policy, horizon=n_steps, starts=begun, discount=discount)
@@ -81,7 +92,13 @@ def rollouts(
     *,
     horizon: int | None = None,
 ) -> list[Rollout]:
-    """Play the policy from the start, all episodes side by side. Each step draws one number for each episode."""
+    """Play the policy from the start, all episodes side by side. Each step draws one number for each episode.
+
+    Raises InvalidPolicy, InvalidModel, InvalidSettings.
+    """
+    _check_pays(world)
+    policy, rng = check_executable(policy, world), check_generator(rng)
+    n_episodes = check_whole("n_episodes", n_episodes, minimum=1)
     n_steps = _n_steps(world, policy, horizon)
     if isinstance(world, SparseMdp):
         return _sparse_rollouts(world, policy, n_episodes, rng, horizon=n_steps)
@@ -108,15 +125,20 @@ def optimum(world: World | SparseMdp) -> float:
 
 def optimal_plan(world: World | SparseMdp) -> HardPlan:
     """The plan that earns the optimum; it need not arrive where arriving does not pay."""
+    _check_pays(world)
     if isinstance(world, SparseMdp):
         return sparse_evaluation.best_plan(world)
     return hard_plan(world, world.reward)
 
 
-def greedy_plan(world: World | SparseMdp, reward: Vector) -> HardPlan:
-    """The best path to a goal (a terminal state) under a learned reward, to be measured on the true one."""
+def greedy_plan(world: World | GridMdp | SparseMdp, reward: Vector) -> HardPlan:
+    """The best path to a goal (a terminal state) under a learned reward, to be measured on the true one.
+
+    Raises InvalidReward, InvalidModel.
+    """
     if isinstance(world, SparseMdp):
-        return sparse_evaluation.best_plan(world, reward, must_arrive=True)
+        checked = check_reward(reward, n_states=world.n_states)
+        return sparse_evaluation.best_plan(world, checked, must_arrive=True)
     return hard_plan(world, reward, must_reach_goal=True)
 
 
@@ -137,8 +159,20 @@ def _rollout(world: World, path: IntVector, arrived: BoolVector) -> Rollout:
     return Rollout(tuple(states.tolist()), float(world.reward[states[1:]].sum()), reached_goal)
 
 
+def _check_pays(world: object) -> None:
+    if not isinstance(world, World | SparseMdp):
+        raise InvalidModel(
+            f"world must be a World or a SparseMdp, which have rewards of their own, not {shown(world)}.", field="world"
+        )
+
+
+def _starts(mdp: Mdp, given: object) -> Vector:
+    """A distribution over all states: whoever starts at an end is there and stays."""
+    return start_distribution(given, n_states=mdp.n_states)
+
+
 def _n_steps(world: World | GridMdp | SparseMdp, policy: Policy | HardPlan, horizon: int | None) -> int:
-    n_steps = world.horizon if horizon is None else horizon
+    n_steps = world.horizon if horizon is None else check_whole("horizon", horizon, minimum=1)
     return min(n_steps, policy.horizon) if isinstance(policy, HardPlan) else n_steps
 
 

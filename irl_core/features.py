@@ -22,8 +22,9 @@ from typing import Any, Final, Literal, Protocol, Self, TypeAlias, get_args
 
 import numpy as np
 
+from irl_core.array_checks import float_array
 from irl_core.arrays import IntMatrix, Matrix, Vector, read_only
-from irl_core.checks import is_integer, shown
+from irl_core.checks import Refused, is_integer, shown
 from irl_core.errors import InvalidFeatures
 from irl_core.mdp.grid import GridMdp
 from irl_core.types import World
@@ -183,9 +184,11 @@ def from_matrix(matrix: Any, *, name: str = "matrix") -> FeatureMap:  # noqa: AN
     Raises InvalidFeatures, which names a column that depends on others, and those.
     """
     try:
-        checked: Matrix = np.array(matrix, dtype=np.float64, order="C")
-    except (TypeError, ValueError):
-        raise InvalidFeatures("features must be a matrix of numbers, states × features.", field="features") from None
+        checked: Matrix = float_array(matrix).copy()
+    except Refused as refused:
+        raise InvalidFeatures(
+            f"features must be a matrix of numbers, states × features; {refused}.", field="features"
+        ) from None
     if checked.ndim != 2 or 0 in checked.shape:
         raise InvalidFeatures(
             f"features must be a matrix of shape (states, features); its shape is {checked.shape}.", field="features"

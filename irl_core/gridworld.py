@@ -17,7 +17,7 @@ import numpy as np
 from irl_core.checks import Refused, identifier, is_integer, shown
 from irl_core.errors import ImpossibleDemonstration, InvalidWorld
 from irl_core.grid import N_ACTIONS
-from irl_core.types import ENDINGS, MAX_SEED, MAX_SIDE, MIN_SIDE, Demonstration, Ending, World
+from irl_core.types import ENDINGS, MAX_SEED, MAX_SIDE, MAX_SLIP, MIN_SIDE, Demonstration, Ending, World, check_world
 from irl_core.world_checks import real, whole
 
 DEFAULT_SIDE = 7
@@ -69,7 +69,7 @@ def draw_playable_world(
     walls: Sequence[int] = (),
 ) -> World:
     """The first of a row of drawn worlds in which a success is possible; its own seed is on record in `world.seed`."""
-    rng = np.random.default_rng(seed)
+    rng = seed if isinstance(seed, np.random.Generator) else _generator(seed)
     n_draws = 0
     while n_draws == 0 or n_draws < 50_000 // (rows * cols):  # a bound on the work: about a thousand draws at 7×7
         world = generate_world(
@@ -87,7 +87,7 @@ def draw_playable_world(
 
 def success_is_possible(world: World) -> bool:
     """Whether any attempt could reach a goal with a total of at least 0 (were every slip a lucky one)."""
-    return world.success_possible
+    return check_world(world).success_possible
 
 
 def simulate(
@@ -103,18 +103,20 @@ def simulate(
     `attempt_id` decides the slips (and is the demonstration's id unless `id` says otherwise). `ending`, if claimed,
     must fit what happened; otherwise it is found: at a goal, out of steps, or given up.
     """
-    _check_attempt_id(attempt_id)
+    check_world(world)
+    id_ = attempt_id if id is None else id
+    _check_ids(attempt_id, id_)
     checked = _check_actions(world, actions)
     states, rewards = [world.start], []
     for step, intended in enumerate(checked):
         if states[-1] in world.goals:
             raise ImpossibleDemonstration("the goal was already reached; nothing comes after it.", step=step)
-        direction = slip_direction(attempt_id, step, intended, world.slip)
+        direction = _slipped(attempt_id, step, intended, world.slip)
         states.append(int(world.next_states[states[-1], direction]))
         rewards.append(float(world.reward[states[-1]]))
     at_goal, total = states[-1] in world.goals, math.fsum(rewards)
     return Demonstration(
-        id=attempt_id if id is None else id,
+        id=id_,
         states=np.array(states, dtype=np.int64),
         actions=np.array(checked, dtype=np.int64),
         rewards=np.array(rewards, dtype=np.float64),
@@ -129,7 +131,14 @@ def slip_direction(attempt_id: str, step: int, intended: int, slip: float) -> in
 
     u = h / 2³² is uniform on [0, 1): from `slip` upward the step goes as intended, below it each of the three others
     has a third. static/js/board/moves.js is its twin; tests/core/slip_vectors.json holds both to the same table.
+    Raises InvalidWorld.
     """
+    whole("step", step, minimum=0, maximum=MAX_SEED)
+    slip = real("slip", slip, minimum=0.0, maximum=MAX_SLIP)
+    return _slipped(attempt_id, step, whole("intended", intended, minimum=0, maximum=N_ACTIONS - 1), slip)
+
+
+def _slipped(attempt_id: str, step: int, intended: int, slip: float) -> int:
     if slip <= 0.0:
         return intended
     u = _hash32(f"{attempt_id}:{step}".encode()) / 2**32
@@ -155,10 +164,15 @@ def _check_origin(*, seed: int, rows: int, cols: int, red_probability: float) ->
     real("red_probability", red_probability, minimum=0.0, maximum=1.0)
 
 
-def _check_attempt_id(attempt_id: str) -> None:
+def _generator(seed: int) -> np.random.Generator:
+    return np.random.default_rng(whole("seed", seed, minimum=0, maximum=MAX_SEED))
+
+
+def _check_ids(*ids: str) -> None:
     """Without an id (an attempt nobody keeps) the empty text decides the slips."""
     try:
-        identifier(attempt_id or "none")
+        for id_ in ids:
+            identifier("none" if id_ == "" else id_)
     except Refused as refused:
         raise ImpossibleDemonstration(f"the attempt's id {refused}.", field="id") from None
 

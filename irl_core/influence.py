@@ -22,6 +22,7 @@ from irl_core.checks import shown
 from irl_core.errors import InvalidRanking, MissingDemonstrations
 from irl_core.evaluation import expected_return, expected_visits
 from irl_core.learners import Learner, LearningProblem, LearningResult, learn
+from irl_core.learners.problem import check_problem
 from irl_core.types import Demonstration, DemonstrationOutcome, Ranking, World
 
 _OTHER: Final[dict[DemonstrationOutcome, DemonstrationOutcome]] = {"success": "failure", "failure": "success"}
@@ -60,6 +61,7 @@ def influence(learner: str | Learner, problem: LearningProblem) -> tuple[Influen
 
     Raises MissingDemonstrations where the learner cannot even start with all of them.
     """
+    check_problem(problem)
     whole = _learned(learner, problem)
     return tuple(_influence(learner, problem, whole, one) for one in problem.demonstrations)
 
@@ -76,12 +78,13 @@ def what_if(
     `swap` names two ranked demonstrations of one outcome. `relabel` calls a success a failure, where it is the least
     bad one, or a failure that reached a goal a success, where it is the last. Raises InvalidRanking.
     """
+    check_problem(problem)
     if sum(one is not None for one in (drop, swap, relabel)) != 1:
         raise InvalidRanking("Say one change: drop, swap or relabel.", field="change")
     if drop is not None:
         return _without(problem, _named(problem, drop))
     if swap is not None:
-        return _swapped(problem, *swap)
+        return _swapped(problem, *_pair(swap))
     assert relabel is not None  # noqa: S101 - for the type checker
     return _relabelled(problem, _named(problem, relabel))
 
@@ -123,6 +126,13 @@ def _return_change(problem: LearningProblem, whole: LearningResult, without: Lea
 def _without(problem: LearningProblem, gone: Demonstration) -> LearningProblem:
     kept = [one for one in problem.demonstrations if one.id != gone.id]
     return _rebuilt(problem, kept, {outcome: _removed(groups, gone.id) for outcome, groups in problem.orders.items()})
+
+
+def _pair(swap: object) -> tuple[str, str]:
+    if not isinstance(swap, tuple | list) or len(swap) != 2:
+        raise InvalidRanking(f"swap must be a pair of ids, not {shown(swap)}.", field="swap")
+    first, second = swap
+    return first, second
 
 
 def _swapped(problem: LearningProblem, first: str, second: str) -> LearningProblem:
@@ -178,7 +188,9 @@ def _removed(groups: Iterable[tuple[str, ...]], id_: str) -> tuple[tuple[str, ..
 
 def _rebuilt(problem: LearningProblem, demonstrations: Any, orders: Any) -> LearningProblem:  # noqa: ANN401 - lists or tuples alike
     rankings = [Ranking(outcome, tuple(map(tuple, groups))) for outcome, groups in orders.items() if groups]
-    return LearningProblem.build(problem.model, demonstrations, rankings, problem.settings, problem.seed)
+    return LearningProblem.build(
+        problem.model, demonstrations, rankings, problem.settings, problem.seed, features=problem.own_features
+    )
 
 
 def _named(problem: LearningProblem, id_: str) -> Demonstration:

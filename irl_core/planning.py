@@ -37,11 +37,12 @@ from typing import Final, TypeAlias
 import numpy as np
 
 from irl_core import grid
+from irl_core.array_checks import check_policy, check_reward, check_whole
 from irl_core.arrays import BoolVector, Matrix, Policy, Reward, Vector, read_only
-from irl_core.errors import InvalidWorld
+from irl_core.errors import InvalidModel, InvalidPolicy, InvalidWorld
 from irl_core.mdp import GridMdp, Mdp, SparseMdp, as_mdp
 from irl_core.mdp.radius import spectral_radius_of
-from irl_core.types import World
+from irl_core.types import World, check_world
 
 StepActions: TypeAlias = np.ndarray[tuple[int, int], np.dtype[np.int8]]
 StepPolicies: TypeAlias = np.ndarray[tuple[int, int, int], np.dtype[np.float64]]
@@ -83,7 +84,8 @@ class HardPlan:
 
 def soft_plan(world: World, reward: Reward, *, horizon: int | None = None) -> SoftPlan:
     """Log partition and policy of the path distribution that `reward`, shape (S,), implies within the horizon."""
-    n_steps = _check(world, reward, horizon)
+    check_world(world)
+    reward, n_steps = _check(world, reward, horizon)
     goals = list(world.goals)
     ahead = np.ascontiguousarray(world.next_states.T)
     log_z: Matrix = np.empty((n_steps + 1, world.n_states))
@@ -117,13 +119,15 @@ def visitation(world: World, plan: SoftPlan) -> Vector:
     return visits
 
 
-def hard_plan(world: World, reward: Reward, *, horizon: int | None = None, must_reach_goal: bool = False) -> HardPlan:
+def hard_plan(
+    world: World | GridMdp, reward: Reward, *, horizon: int | None = None, must_reach_goal: bool = False
+) -> HardPlan:
     """The plan that earns most on average of `reward`, shape (S,), of the squares it reaches.
 
     With `must_reach_goal`, ending elsewhere costs more than any path can earn (without slip: it arrives whenever it
     can; with slip, 0.1 % more chance of arriving outweighs all rewards). It is the max-product twin of the soft plan.
     """
-    n_steps = _check(world, reward, horizon)
+    reward, n_steps = _check(world, reward, horizon)
     goals = list(world.goals)
     values: Matrix = np.zeros((n_steps + 1, world.n_states))
     actions: StepActions = np.zeros((n_steps, world.n_states), dtype=np.int8)
@@ -139,6 +143,22 @@ def hard_plan(world: World, reward: Reward, *, horizon: int | None = None, must_
     return HardPlan(actions, values)
 
 
+def check_executable(policy: object, model: World | Mdp) -> Policy | HardPlan:
+    """A policy (S, A), or a plan, that can be executed in the model. Raises InvalidPolicy."""
+    mdp = as_mdp(model)
+    if not isinstance(policy, HardPlan):
+        return check_policy(policy, terminal=mdp.terminal, n_actions=mdp.n_actions)
+    actions = policy.actions
+    if actions.ndim != 2 or actions.shape[1] != mdp.n_states or len(actions) == 0:
+        raise InvalidPolicy(
+            f"The plan must have the shape (steps, {mdp.n_states}) of this model; its shape is {actions.shape}.",
+            field="policy",
+        )
+    if actions.min() < 0 or actions.max() >= mdp.n_actions:
+        raise InvalidPolicy(f"The plan's actions must lie from 0 to {mdp.n_actions - 1}.", field="policy")
+    return policy
+
+
 def direction_law(world: World | GridMdp, policy: Policy) -> Matrix:
     """The chance of each direction when `policy` (or a one-hot plan) is executed under slip, shape (S, 4)."""
     return _slip_mix(world, policy)
@@ -152,6 +172,7 @@ def spectral_radius(model: World | Mdp, reward: Reward) -> float:
     the Collatz–Wielandt bounds (`mdp/radius.py` for a SparseMdp). Where ρ exceeds e^700 it is given as that.
     """
     mdp = as_mdp(model)
+    reward = check_reward(reward, n_states=mdp.n_states)
     if isinstance(mdp, SparseMdp):
         return spectral_radius_of(mdp, reward)
     if mdp.n_states <= _SMALL:
@@ -186,16 +207,12 @@ def _on_the_way(mdp: GridMdp) -> BoolVector:
     return reached
 
 
-def _check(world: World, reward: Reward, horizon: int | None) -> int:
-    n_steps = world.horizon if horizon is None else horizon
-    if n_steps < 1:
-        raise InvalidWorld(f"horizon must be at least 1 step, not {n_steps}.", field="horizon")
-    if reward.shape != (world.n_states,) or not np.isfinite(reward).all():
-        raise InvalidWorld(
-            f"reward must be {world.n_states} finite numbers, one a square; its shape is {reward.shape}.",
-            field="reward",
-        )
-    return n_steps
+def _check(world: World | GridMdp, reward: Reward, horizon: int | None) -> tuple[Vector, int]:
+    """Reward and horizon as they are computed with. Raises InvalidModel, InvalidReward, InvalidSettings."""
+    if isinstance(as_mdp(world), SparseMdp):
+        raise InvalidModel("world must be a grid, not a SparseMdp.", field="world")
+    checked = check_reward(reward, n_states=world.n_states)
+    return checked, world.horizon if horizon is None else check_whole("horizon", horizon, minimum=1)
 
 
 def _log_sum_exp(values: Matrix) -> Vector:

@@ -13,10 +13,11 @@ from typing import Any, Protocol, TypeAlias, final
 import numpy as np
 
 from irl_core import grid
+from irl_core.array_checks import check_generator, check_policy, check_whole
 from irl_core.arrays import BoolVector, IntVector, Policy, Vector, read_only
 from irl_core.checks import is_integer, shown
 from irl_core.errors import InvalidModel
-from irl_core.mdp import GridMdp, Mdp
+from irl_core.mdp import GridMdp, Mdp, as_mdp
 
 Int32Matrix: TypeAlias = np.ndarray[tuple[int, int], np.dtype[np.int32]]
 
@@ -64,6 +65,7 @@ class TableSimulator:
     """A grid or sparse model, played by a compiled loop. Each episode consumes as many random numbers as any other."""
 
     def __init__(self, mdp: Mdp) -> None:
+        mdp = as_mdp(mdp)
         self.n_states, self.n_actions, self.horizon = mdp.n_states, mdp.n_actions, mdp.horizon
         self._terminal, self._starts = mdp.terminal, mdp.starts
         self._rows = _grid_rows(mdp) if isinstance(mdp, GridMdp) else _sparse_rows(mdp)
@@ -73,6 +75,8 @@ class TableSimulator:
         """Episodes by a policy of shape (S, A)."""
         from irl_core import _kernels  # noqa: PLC0415 - whoever only reads results needs no compiler
 
+        policy = check_policy(policy, terminal=self._terminal, n_actions=self.n_actions)
+        n_episodes, rng = check_whole("n_episodes", n_episodes, minimum=1), check_generator(rng)
         shape = (n_episodes, self.horizon)
         starts = self._draw_starts(n_episodes, rng)
         choices = rng.random(shape)
@@ -104,6 +108,9 @@ class StepSimulator:
 
     def play(self, policy: Policy, n_episodes: int, rng: np.random.Generator) -> Episodes:
         """Episodes by a policy of shape (S, A); each is reset with a seed of its own."""
+        nowhere = np.zeros(self.n_states, dtype=np.bool_)  # which states are terminal only the environment knows
+        policy = check_policy(policy, terminal=nowhere, n_actions=self.n_actions)
+        n_episodes, rng = check_whole("n_episodes", n_episodes, minimum=1), check_generator(rng)
         states, actions = (
             np.zeros((n_episodes, self.horizon + 1), np.int32),
             np.zeros((n_episodes, self.horizon), np.int32),

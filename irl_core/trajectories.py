@@ -4,12 +4,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from irl_core.array_checks import finite_array
 from irl_core.arrays import IntVector, Vector
 from irl_core.checks import Refused, identifier, is_integer, shown
 from irl_core.errors import ImpossibleDemonstration
-from irl_core.mdp import Mdp
+from irl_core.mdp import Mdp, as_mdp
 from irl_core.mdp.dynamics import transition_chances
 from irl_core.types import OUTCOMES, Demonstration, DemonstrationOutcome, Ending
+from irl_core.world_checks import is_list
 
 
 def demonstration_of(
@@ -32,6 +34,7 @@ def demonstration_of(
         raise ImpossibleDemonstration(f"the demonstration's id {refused}.", field="id") from None
     if outcome not in OUTCOMES:
         raise ImpossibleDemonstration(f'outcome must be "success" or "failure", not {shown(outcome)}.', field="outcome")
+    mdp = as_mdp(mdp)
     visited = _whole_numbers("states", states, below=mdp.n_states)
     taken = _whole_numbers("actions", actions, below=mdp.n_actions)
     if not 0 < len(taken) <= mdp.horizon or len(visited) != len(taken) + 1:
@@ -51,7 +54,9 @@ def demonstration_of(
 
 
 def _whole_numbers(name: str, values: Sequence[int] | IntVector, *, below: int) -> IntVector:
-    listed = values.tolist() if isinstance(values, np.ndarray) else list(values)
+    listed = values.tolist() if isinstance(values, np.ndarray) else values
+    if not is_list(listed):
+        raise ImpossibleDemonstration(f"{name} must be a list of whole numbers, not {shown(values)}.", field=name)
     for step, value in enumerate(listed):
         if not is_integer(value) or not 0 <= int(value) < below:
             raise ImpossibleDemonstration(
@@ -61,9 +66,8 @@ def _whole_numbers(name: str, values: Sequence[int] | IntVector, *, below: int) 
 
 
 def _rewards(given: Sequence[float] | None, *, n_steps: int) -> Vector:
-    paid: Vector = np.zeros(n_steps) if given is None else np.array(given, dtype=np.float64)
-    if paid.shape != (n_steps,) or not np.isfinite(paid).all():
-        raise ImpossibleDemonstration(
-            f"rewards must be {n_steps} finite numbers, one a step; their shape is {paid.shape}.", field="rewards"
-        )
-    return paid
+    if given is None:
+        return np.zeros(n_steps)
+    wanted = f"{n_steps} finite numbers, one a step"
+    paid: Vector = finite_array("rewards", given, shape=(n_steps,), wanted=wanted, error=ImpossibleDemonstration)
+    return paid.copy()

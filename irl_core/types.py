@@ -10,7 +10,7 @@ import numpy as np
 from irl_core import grid
 from irl_core.arrays import IntMatrix, IntVector, Matrix, Vector, read_only
 from irl_core.checks import shown
-from irl_core.errors import InvalidRanking, InvalidWorld
+from irl_core.errors import ImpossibleDemonstration, InvalidModel, InvalidRanking, InvalidWorld
 from irl_core.mdp.grid import GridMdp
 from irl_core.world_checks import is_list, real, rewards_of, squares_of, whole
 
@@ -261,6 +261,27 @@ class Ranking:
     def ids(self) -> tuple[str, ...]:
         """Every ranked demonstration, in display order."""
         return tuple(id_ for group in self.groups for id_ in group)
+
+
+def check_world(world: object) -> World:
+    """A World, which has rewards of its own. Raises InvalidModel."""
+    if not isinstance(world, World):
+        raise InvalidModel(f"world must be a World, not {shown(world)}.", field="world")
+    return world
+
+
+def check_demonstrations(given: object) -> tuple[Demonstration, ...]:
+    """Demonstrations from any list of them. Raises ImpossibleDemonstration."""
+    listed = tuple(given) if isinstance(given, Iterable) else (given,)
+    for one in listed:
+        if not isinstance(one, Demonstration):
+            raise ImpossibleDemonstration(
+                f"demonstrations must be a list of Demonstration (of simulate, or demonstration_of), not {shown(one)}.",
+                field="demonstrations",
+            )
+    if isinstance(given, Demonstration):
+        raise ImpossibleDemonstration("demonstrations must be a list; put the one into [].", field="demonstrations")
+    return listed
 
 
 def check_groups(groups: Iterable[Iterable[str]]) -> tuple[tuple[str, ...], ...]:

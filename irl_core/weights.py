@@ -16,9 +16,12 @@ from collections.abc import Iterable, Mapping
 
 import numpy as np
 
-from irl_core.arrays import Vector
-from irl_core.mdp import Mdp
-from irl_core.types import Demonstration, World, check_groups
+from irl_core.array_checks import check_discount
+from irl_core.arrays import IntVector, Vector
+from irl_core.checks import Refused, real_number, shown
+from irl_core.errors import ImpossibleDemonstration, InvalidRanking
+from irl_core.mdp import Mdp, as_mdp
+from irl_core.types import Demonstration, World, check_demonstrations, check_groups
 
 
 def rank_weights(groups: Iterable[Iterable[str]]) -> dict[str, float]:
@@ -36,6 +39,9 @@ def rank_weights(groups: Iterable[Iterable[str]]) -> dict[str, float]:
 
 def uniform_weights(ids: Iterable[str]) -> dict[str, float]:
     """The same weight for each id; they sum to 1."""
+    given: object = ids
+    if not isinstance(given, Iterable):
+        raise InvalidRanking(f"ids must be a list of texts, not {shown(given)}.", field="ids")
     listed = list(dict.fromkeys(ids))
     return dict.fromkeys(listed, 1.0 / len(listed)) if listed else {}
 
@@ -50,12 +56,37 @@ def feature_counts(
     """μ̃, the weighted sum of visits to each state, shape (S,); with a discount γ a visit at step t counts γ^t.
 
     Summed in the order of ids, so that the order in which demonstrations are given changes no bit of the result.
+    Raises ImpossibleDemonstration, InvalidRanking (a weight that is missing or none), InvalidSettings.
     """
-    counts: Vector = np.zeros(model.n_states)
-    for demonstration in sorted(demonstrations, key=lambda one: one.id):
-        worth = discount ** np.arange(len(demonstration.states))
-        counts += weights[demonstration.id] * np.bincount(demonstration.states, worth, model.n_states)
+    n_states, gamma = as_mdp(model).n_states, check_discount(discount)
+    counts: Vector = np.zeros(n_states)
+    for demonstration in sorted(check_demonstrations(demonstrations), key=lambda one: one.id):
+        worth = gamma ** np.arange(len(demonstration.states))
+        weight = _weight_of(demonstration, weights)
+        counts += weight * np.bincount(_states_below(n_states, demonstration), worth, n_states)
     return counts
+
+
+def _weight_of(demonstration: Demonstration, weights: Mapping[str, float]) -> float:
+    given: object = weights
+    if not isinstance(given, Mapping) or demonstration.id not in given:
+        raise InvalidRanking(
+            f"weights must be a mapping with a number for each id; {shown(demonstration.id)} has none.", field="weights"
+        )
+    try:
+        return real_number(weights[demonstration.id])
+    except Refused as refused:
+        raise InvalidRanking(f"The weight of {shown(demonstration.id)} {refused}.", field="weights") from None
+
+
+def _states_below(n_states: int, demonstration: Demonstration) -> IntVector:
+    if demonstration.states.max(initial=0) >= n_states:
+        raise ImpossibleDemonstration(
+            f"demonstration {shown(demonstration.id)} is not of this model: it visits state"
+            f" {demonstration.states.max()}, and there are {n_states}.",
+            field="demonstrations",
+        )
+    return demonstration.states
 
 
 def start_counts(model: World | Mdp, demonstrations: Iterable[Demonstration], weights: Mapping[str, float]) -> Vector:

@@ -8,15 +8,15 @@
 | `ziebart` | the paper's Algorithm 1 to the letter: one stationary policy, run forward with T | none |
 """
 
-from collections.abc import Sequence
-from typing import Final
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
+from irl_core.array_checks import check_discount, check_reward, check_size, check_whole, finite_array
 from irl_core.arrays import Matrix, Vector
-from irl_core.checks import Refused, real_number, shown, whole_number
+from irl_core.checks import shown
 from irl_core.errors import InvalidModel, InvalidReward, InvalidSettings
-from irl_core.inference.base import INFERENCE_KINDS, BatchInferred, InferenceKind, Inferred, check_reward
+from irl_core.inference.base import INFERENCE_KINDS, BatchInferred, InferenceKind, Inferred
 from irl_core.inference.causal import infer_causal
 from irl_core.inference.path import infer_path, infer_path_batch
 from irl_core.inference.path_infinite import infer_path_infinite, infer_path_infinite_batch
@@ -24,8 +24,6 @@ from irl_core.inference.sparse import infer_path_infinite_sparse, infer_path_spa
 from irl_core.inference.ziebart import infer_ziebart
 from irl_core.mdp import GridMdp, Mdp, as_mdp, start_distribution
 from irl_core.types import World
-
-MAX_HORIZON: Final = 10_000_000
 
 
 def infer(
@@ -56,7 +54,7 @@ def infer(
             return infer_path(mdp, checked, horizon=n_steps, starts=begun)
         return infer_path_sparse(mdp, checked, horizon=n_steps, starts=begun)
     if inference == "causal":
-        return infer_causal(mdp, checked, horizon=n_steps, discount=_discount(discount), starts=begun)
+        return infer_causal(mdp, checked, horizon=n_steps, discount=check_discount(discount), starts=begun)
     if inference == "ziebart":
         return infer_ziebart(mdp, checked, horizon=n_steps, starts=begun)
     raise InvalidSettings(
@@ -78,18 +76,11 @@ def infer_batch(
     unless given; `starts`, shape (B, S), are the grids' own.
     """
     mdps = _same_shape(models)
-    checked = np.ascontiguousarray(rewards, dtype=np.float64)
-    if checked.shape != (len(mdps), mdps[0].n_states) or not np.isfinite(checked).all():
-        raise InvalidReward(
-            f"rewards must be {len(mdps)} × {mdps[0].n_states} finite numbers, one row a grid; their shape is"
-            f" {checked.shape}.",
-            field="rewards",
-        )
-    begun = np.stack([mdp.starts for mdp in mdps]) if starts is None else np.asarray(starts, dtype=np.float64)
-    if begun.shape != checked.shape:
-        raise InvalidModel(
-            f"starts must have the shape of rewards, {checked.shape}, not {begun.shape}.", field="starts"
-        )
+    shape = (len(mdps), mdps[0].n_states)
+    wanted = f"{shape[0]} × {shape[1]} finite numbers, one row a grid"
+    checked: Matrix = finite_array("rewards", rewards, shape=shape, wanted=wanted, error=InvalidReward)
+    check_size("rewards", checked)
+    begun = np.stack([mdp.starts for mdp in mdps]) if starts is None else _batch_starts(mdps, starts)
     if inference == "path_infinite":
         return infer_path_infinite_batch(mdps, checked, starts=begun)
     if inference == "path":
@@ -100,11 +91,15 @@ def infer_batch(
     )
 
 
-def _same_shape(models: Sequence[World | GridMdp]) -> list[GridMdp]:
+def _same_shape(models: object) -> list[GridMdp]:
+    if not isinstance(models, Iterable) or isinstance(models, str):
+        raise InvalidModel(f"models must be a list of grids, not {shown(models)}.", field="models")
     mdps = [model.mdp if isinstance(model, World) else model for model in models]
     if not mdps:
         raise InvalidModel("A batch needs at least one grid.", field="models")
     for mdp in mdps:
+        if not isinstance(mdp, GridMdp):
+            raise InvalidModel(f"Only grids go in batches, not {shown(mdp)}.", field="models")
         if (mdp.rows, mdp.cols) != (mdps[0].rows, mdps[0].cols):
             raise InvalidModel(
                 f"The grids of a batch have one size; here are {mdps[0].rows}×{mdps[0].cols} and"
@@ -114,6 +109,13 @@ def _same_shape(models: Sequence[World | GridMdp]) -> list[GridMdp]:
     return mdps
 
 
+def _batch_starts(mdps: Sequence[GridMdp], given: object) -> Matrix:
+    shape = (len(mdps), mdps[0].n_states)
+    wanted = f"{shape[0]} × {shape[1]} probabilities, one row a grid"
+    starts: Matrix = finite_array("starts", given, shape=shape, wanted=wanted, error=InvalidModel)
+    return np.stack([_starts(mdp, row) for mdp, row in zip(mdps, starts, strict=True)])
+
+
 def _starts(mdp: Mdp, given: int | Vector | None) -> Vector:
     if given is None:
         return mdp.starts
@@ -121,17 +123,7 @@ def _starts(mdp: Mdp, given: int | Vector | None) -> Vector:
 
 
 def _horizon(mdp: Mdp, given: int | None) -> int:
-    try:
-        return mdp.horizon if given is None else whole_number(given, minimum=1, maximum=MAX_HORIZON)
-    except Refused as refused:
-        raise InvalidSettings(f"horizon {refused}.", field="horizon") from None
-
-
-def _discount(given: float) -> float:
-    try:
-        return real_number(given, minimum=0.0, maximum=1.0, above=True)
-    except Refused as refused:
-        raise InvalidSettings(f"discount {refused}.", field="discount") from None
+    return mdp.horizon if given is None else check_whole("horizon", given, minimum=1)
 
 
 __all__ = [

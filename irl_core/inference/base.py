@@ -6,7 +6,6 @@ from typing import Final, Literal, TypeAlias, get_args
 import numpy as np
 
 from irl_core.arrays import Matrix, Policy, Vector, read_only
-from irl_core.errors import InvalidReward
 
 StepPolicies: TypeAlias = np.ndarray[tuple[int, int, int], np.dtype[np.float64]]
 InferenceKind: TypeAlias = Literal["path", "path_infinite", "causal", "ziebart"]
@@ -42,19 +41,3 @@ class BatchInferred:
     log_partition: Vector
     policy: np.ndarray[tuple[int, int, int], np.dtype[np.float64]]
     visitation: Matrix
-
-
-def check_reward(reward: object, *, n_states: int) -> Vector:
-    """The reward as contiguous float64, shape (S,). Raises InvalidReward, which says what was found."""
-    try:
-        checked: Vector = np.ascontiguousarray(reward, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise InvalidReward(f"reward must be {n_states} finite numbers, one a state.", field="reward") from None
-    if checked.shape != (n_states,):
-        raise InvalidReward(
-            f"reward must be {n_states} finite numbers, one a state; its shape is {checked.shape}.", field="reward"
-        )
-    wrong = np.flatnonzero(~np.isfinite(checked))
-    if len(wrong):
-        raise InvalidReward(f"reward must be finite; in state {wrong[0]} it is {checked[wrong[0]]:g}.", field="reward")
-    return checked

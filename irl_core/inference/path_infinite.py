@@ -35,9 +35,10 @@ from typing import Final, NoReturn, TypeAlias
 import numpy as np
 
 from irl_core import _kernels
+from irl_core.array_checks import check_reward
 from irl_core.arrays import IntVector, Matrix, Vector
 from irl_core.errors import DivergentPartition, InvalidModel
-from irl_core.inference.base import BatchInferred, Inferred, check_reward
+from irl_core.inference.base import BatchInferred, Inferred
 from irl_core.mdp.grid import GridMdp
 
 Cube: TypeAlias = np.ndarray[tuple[int, int, int], np.dtype[np.float64]]

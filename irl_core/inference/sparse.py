@@ -31,12 +31,12 @@ from typing import Any, Final
 import numpy as np
 
 from irl_core import _kernels
+from irl_core.array_checks import check_size
 from irl_core.arrays import BoolVector, IntMatrix, IntVector, Matrix, Policy, Vector
-from irl_core.errors import DivergentPartition, InvalidModel, InvalidReward
+from irl_core.errors import DivergentPartition, InvalidModel
 from irl_core.inference.base import Inferred
 from irl_core.mdp.sparse import SparseMdp
 
-MAX_REWARD: Final = 1e12
 _FEW: Final = 1 << 19
 """Weights that are held without thinking of memory, 16 bytes each: 8 MB."""
 _LN2: Final = math.log(2.0)
@@ -145,12 +145,7 @@ def _check_ends(mdp: SparseMdp) -> None:
 
 def _as_powers_of_two(reward: Vector) -> tuple[Vector, IntVector]:
     """e^R as mantissa · 2^exponent, accurate to rounding for any size of R."""
-    if np.abs(reward).max() > MAX_REWARD:
-        raise InvalidReward(
-            f"reward must lie within ±{MAX_REWARD:g} to be computed with; it reaches"
-            f" {reward[np.abs(reward).argmax()]:g}.",
-            field="reward",
-        )
+    check_size("reward", reward)
     halvings = np.rint(reward / _LN2)
     rest = (reward - halvings * _LN2_HIGH) - halvings * _LN2_LOW
     return np.exp(rest), halvings.astype(np.int64)

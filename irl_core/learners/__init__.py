@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
+from irl_core.array_checks import check_whole
 from irl_core.checks import shown
 from irl_core.errors import InvalidSettings
 from irl_core.learners.base import Family, Frame, Learner, LearningResult, LearningState, Outcome, Posterior
@@ -13,7 +14,7 @@ from irl_core.learners.irlfr import Irlfr
 from irl_core.learners.irlr import Irlr
 from irl_core.learners.meirl import Meirl
 from irl_core.learners.model_free import ModelFree
-from irl_core.learners.problem import LearningProblem
+from irl_core.learners.problem import LearningProblem, check_problem
 from irl_core.learners.settings import Settings
 
 LEARNERS: Mapping[str, Learner] = MappingProxyType(
@@ -44,12 +45,13 @@ def learn(
 ) -> LearningResult:
     """Run a learner to its end, or until `should_stop`, which is asked every `frame_every` iterations.
 
-    `on_frame` is shown the start, every `frame_every`-th iteration and the end.
+    `on_frame` is shown the start, every `frame_every`-th iteration and the end. Raises MissingDemonstrations where the
+    problem lacks what the learner needs, InvalidSettings, and what the model cannot do (InvalidModel, InvalidFeatures,
+    DivergentPartition).
     """
-    if isinstance(learner, str):
-        learner = _named(learner)
-    if frame_every < 1:
-        raise InvalidSettings(f"frame_every must be at least 1, not {frame_every}.", field="frame_every")
+    learner = _named(learner)
+    check_problem(problem)
+    frame_every = check_whole("frame_every", frame_every, minimum=1)
     state = learner.start(problem)
     _show(learner, problem, state, on_frame)
     while not state.is_finished and not should_stop():
@@ -58,10 +60,14 @@ def learn(
     return learner.result(problem, state)
 
 
-def _named(name: str) -> Learner:
-    if name not in LEARNERS:
-        raise InvalidSettings(f"There is no learner {shown(name)}; there are {', '.join(LEARNERS)}.", field="learners")
-    return LEARNERS[name]
+def _named(learner: str | Learner) -> Learner:
+    if isinstance(learner, str) and learner in LEARNERS:
+        return LEARNERS[learner]
+    if isinstance(learner, str) or not hasattr(learner, "start"):
+        raise InvalidSettings(
+            f"There is no learner {shown(learner)}; there are {', '.join(LEARNERS)}.", field="learners"
+        )
+    return learner
 
 
 def _show(

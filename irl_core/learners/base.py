@@ -8,6 +8,7 @@ from typing import Any, Literal, Protocol, Self, TypeAlias
 import numpy as np
 
 from irl_core.arrays import Policy, Reward, Vector, read_only
+from irl_core.checks import whole_number
 from irl_core.errors import IrlError
 from irl_core.learners.problem import LearningProblem
 
@@ -111,11 +112,11 @@ class LearningState:
 
     @classmethod
     def from_json(cls, data: Mapping[str, Any]) -> Self:
-        """The state that `to_json` wrote."""
+        """The state that `to_json` wrote. Raises IrlError where it is none."""
         try:
             return cls(
                 learner=data["learner"],
-                iteration=data["iteration"],
+                iteration=whole_number(data["iteration"], minimum=0, maximum=10**9),
                 values={name: _value(value) for name, value in data["values"].items()},
                 outcome=None if data["outcome"] is None else Outcome(data["outcome"]),
             )

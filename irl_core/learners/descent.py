@@ -330,7 +330,7 @@ def _convergent_constant(problem: LearningProblem) -> Vector:
 
 def _how_it_ended(problem: LearningProblem, state: LearningState, outcome: Outcome, gap: float) -> str:
     n, limit = state.iteration, problem.settings.iterations
-    unit = "visits of a square" if problem.settings.features == "one_hot" else "in the count of a feature"
+    unit = "visits of a square" if problem.features.name == "one_hot" else "in the count of a feature"
     if unit.startswith("visits") and f"{gap:.2g}" == "1":
         unit = "visit of a square"
     visits = f"the gap to the attempts is {gap:.2g} {unit}"

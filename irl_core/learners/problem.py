@@ -4,14 +4,18 @@ The model is a World, of which a learner may know the transitions (`mdp`) and wh
 a GridMdp or SparseMdp, whose demonstrations may start anywhere (`demonstration_of` makes them).
 """
 
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol, Self
 
+import numpy as np
+
 from irl_core.checks import is_integer, shown
 from irl_core.errors import (
     ImpossibleDemonstration,
+    InvalidFeatures,
     InvalidModel,
     InvalidRanking,
     InvalidSettings,
@@ -21,7 +25,7 @@ from irl_core.features import FeatureMap, features_of
 from irl_core.learners.settings import Settings
 from irl_core.mdp import GridMdp, Mdp, as_mdp
 from irl_core.mdp.dynamics import transition_chances
-from irl_core.types import OUTCOMES, Demonstration, DemonstrationOutcome, Ranking, World
+from irl_core.types import OUTCOMES, Demonstration, DemonstrationOutcome, Ranking, World, check_demonstrations
 from irl_core.weights import rank_weights, uniform_weights
 
 
@@ -44,6 +48,7 @@ class LearningProblem:
 
     `demonstrations` are all that were given. `failures` are the usable ones: unless the settings include the
     unfinished, those that ended at a goal; `n_left_out` counts the others. `orders` has the groups of ranked outcomes.
+    `own_features`, if given, take the place of those that the settings name.
     """
 
     model: World | Mdp
@@ -54,6 +59,7 @@ class LearningProblem:
     failures: tuple[Demonstration, ...]
     orders: Mapping[DemonstrationOutcome, tuple[tuple[str, ...], ...]]
     n_left_out: int
+    own_features: FeatureMap | None = None
 
     @property
     def mdp(self) -> Mdp:
@@ -69,8 +75,8 @@ class LearningProblem:
 
     @cached_property
     def features(self) -> FeatureMap:
-        """φ, by the settings. Raises InvalidFeatures where the model has no such features."""
-        return features_of(self.settings.features, self.model)
+        """φ, its own or by the settings. Raises InvalidFeatures where the model has no such features."""
+        return self.own_features or features_of(self.settings.features, self.model)
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -86,10 +92,17 @@ class LearningProblem:
         rankings: Iterable[Ranking] = (),
         settings: Settings | None = None,
         seed: int = 0,
+        *,
+        features: FeatureMap | None = None,
     ) -> Self:
-        """Check that everything belongs together; what each learner lacks, `missing` tells."""
-        settings = settings or Settings()
-        given = tuple(demonstrations)
+        """Check that everything belongs together; what each learner lacks, `missing` tells.
+
+        `features`, such as `irl_core.features.from_matrix` makes, take the place of those that the settings name.
+        Raises InvalidModel, ImpossibleDemonstration, InvalidRanking, InvalidSettings, InvalidFeatures.
+        """
+        settings = _checked_settings(settings)
+        given = check_demonstrations(demonstrations)
+        as_mdp(model)
         for demonstration in given:
             _check_demonstration(model, demonstration)
         _check_ids(given)
@@ -106,6 +119,7 @@ class LearningProblem:
             failures=usable,
             orders=_orders(given, rankings),
             n_left_out=len(failures) - len(usable),
+            own_features=None if features is None else _fitting(features, model),
         )
 
     def missing(self, learner: Needs) -> str | None:
@@ -177,12 +191,46 @@ class LearningProblem:
         return f' {never} ended elsewhere; to learn from such too, set "unfinished_failures" to "include".'
 
 
+def check_problem(problem: object) -> LearningProblem:
+    """A LearningProblem. Raises InvalidModel."""
+    if not isinstance(problem, LearningProblem):
+        raise InvalidModel(
+            f"problem must be a LearningProblem, which LearningProblem.build makes, not {shown(problem)}.",
+            field="problem",
+        )
+    return problem
+
+
+def _checked_settings(given: object) -> Settings:
+    if given is None:
+        return Settings()
+    if not isinstance(given, Settings):
+        raise InvalidSettings(f"settings must be Settings(…), not {shown(given)}.", field="settings")
+    return given
+
+
+def _fitting(features: object, model: World | Mdp) -> FeatureMap:
+    if not isinstance(features, FeatureMap):
+        raise InvalidFeatures(
+            f"features must be a FeatureMap, such as from_matrix makes, not {shown(features)}.", field="features"
+        )
+    return features.fitting(as_mdp(model))
+
+
+def _checked_rankings(given: object) -> tuple[Ranking, ...]:
+    listed = tuple(given) if isinstance(given, Iterable) else (given,)
+    for one in listed:
+        if not isinstance(one, Ranking):
+            raise InvalidRanking(f"rankings must be a list of Ranking, not of {shown(one)}.", field="rankings")
+    return listed
+
+
 def _orders(
     given: tuple[Demonstration, ...], rankings: Iterable[Ranking]
 ) -> dict[DemonstrationOutcome, tuple[tuple[str, ...], ...]]:
     by_outcome = {outcome: {one.id for one in given if one.outcome == outcome} for outcome in OUTCOMES}
     orders: dict[DemonstrationOutcome, tuple[tuple[str, ...], ...]] = {}
-    for ranking in rankings:
+    for ranking in _checked_rankings(rankings):
         if ranking.outcome in orders:
             raise InvalidRanking(f"There are two rankings of {ranking.outcome} demonstrations.", field="rankings")
         for id_ in ranking.ids:
@@ -206,17 +254,28 @@ def _check_ids(given: tuple[Demonstration, ...]) -> None:
 def _check_demonstration(model: World | Mdp, one: Demonstration) -> None:
     """Refuse what cannot have been played in this model; `simulate` made it, but perhaps in another one."""
     mdp, states, actions = as_mdp(model), one.states, one.actions
+    for numbers in (states, actions):
+        if numbers.ndim != 1 or not np.issubdtype(numbers.dtype, np.integer):
+            _refuse(one, f"states and actions are lists of whole numbers, not {numbers.dtype} {numbers.shape}")
     if len(states) != len(actions) + 1 or len(one.rewards) != len(actions) or not 0 < len(actions) <= mdp.horizon:
         _refuse(one, f"it needs 1 to {mdp.horizon} steps, one more state than actions, one reward a step")
     if states.min() < 0 or states.max() >= mdp.n_states or (isinstance(model, World) and states[0] != model.start):
         _refuse(one, f"it must start in square {mdp.start_states[0]} and stay below square {mdp.n_states}")
+    if actions.min() < 0 or actions.max() >= mdp.n_actions:
+        _refuse(one, f"its actions must lie from 0 to {mdp.n_actions - 1}")
+    if not np.isfinite(one.rewards).all() or not math.isclose(one.total, math.fsum(one.rewards), abs_tol=1e-6):
+        _refuse(one, f"its total must be the sum of its rewards, {math.fsum(one.rewards):g}, not {one.total:g}")
     fits = ~mdp.terminal[states[:-1]] & (transition_chances(mdp, states, actions) > 0.0)
     if isinstance(model, World):
         fits &= model.reward[states[1:]] == one.rewards
     if not fits.all():
         _refuse(one, f"its step {int(fits.argmin())} does not exist there")
     arrived = bool(mdp.terminal[states[-1]])
-    if one.reached_goal != arrived or (isinstance(model, World) and one.outcome != _outcome(one, arrived=arrived)):
+    if (
+        one.outcome not in OUTCOMES
+        or one.reached_goal != arrived
+        or (isinstance(model, World) and one.outcome != _outcome(one, arrived=arrived))
+    ):
         _refuse(one, f"it says {one.outcome} and {one.ending}, which is not how it ends")
 
 

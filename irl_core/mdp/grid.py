@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from irl_core import grid
+from irl_core.array_checks import float_array
 from irl_core.arrays import BoolVector, IntMatrix, IntVector, Vector, read_only
-from irl_core.checks import is_integer, shown
+from irl_core.checks import Refused, is_integer, shown
 from irl_core.errors import InvalidModel
 from irl_core.world_checks import real, squares_of, whole
 
@@ -155,9 +156,9 @@ def start_distribution(given: object, *, n_states: int, not_at: Iterable[int] = 
 def _probabilities(given: object, *, n_states: int) -> Vector:
     wanted = f"start must be a state or {n_states} probabilities that sum to 1"
     try:
-        starts: Vector = np.array(given, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise InvalidModel(f"{wanted}, not {shown(given)}.", field="start") from None
+        starts: Vector = float_array(given).copy()
+    except Refused as refused:
+        raise InvalidModel(f"{wanted}; {refused}.", field="start") from None
     if starts.shape != (n_states,):
         raise InvalidModel(f"{wanted}; their shape is {starts.shape}.", field="start")
     if not np.isfinite(starts).all() or (starts < 0.0).any() or abs(starts.sum() - 1.0) > _SUM_TOLERANCE:

@@ -20,8 +20,9 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
+from irl_core.array_checks import float_array
 from irl_core.arrays import BoolVector, IntVector, Matrix, Vector, read_only
-from irl_core.checks import is_integer, shown
+from irl_core.checks import Refused, is_integer, shown
 from irl_core.errors import InvalidModel
 from irl_core.mdp.grid import start_distribution
 
@@ -249,7 +250,7 @@ class SparseMdp:
 
 
 def _terminal(given: object, *, n_states: int) -> BoolVector:
-    marked = np.array(given)
+    marked = _listed("terminal", given)
     if marked.shape != (n_states,) or marked.dtype != np.bool_:
         raise InvalidModel(
             f"terminal must be {n_states} truth values, one a state; here are {marked.dtype} of shape {marked.shape}.",
@@ -259,7 +260,7 @@ def _terminal(given: object, *, n_states: int) -> BoolVector:
 
 
 def _whole_numbers(name: str, given: object) -> IntVector:
-    values = np.array(given)
+    values = _listed(name, given)
     if values.ndim != 1 or (len(values) and not np.issubdtype(values.dtype, np.integer)):
         raise InvalidModel(
             f"{name} must be a list of whole numbers; here are {values.dtype} of shape {values.shape}.", field=name
@@ -267,11 +268,18 @@ def _whole_numbers(name: str, given: object) -> IntVector:
     return values.astype(np.int64)
 
 
+def _listed(name: str, given: object) -> np.ndarray[Any, np.dtype[Any]]:
+    try:
+        return np.array(given)
+    except ValueError:
+        raise InvalidModel(f"{name} must be one list, not lists of several lengths.", field=name) from None
+
+
 def _numbers(name: str, given: object, *, n_dimensions: int | None = 1) -> np.ndarray[Any, np.dtype[np.float64]]:
     try:
-        values = np.array(given, dtype=np.float64, order="C")
-    except (TypeError, ValueError):
-        raise InvalidModel(f"{name} must be numbers, not {shown(given)}.", field=name) from None
+        values = float_array(given).copy()
+    except Refused as refused:
+        raise InvalidModel(f"{name} must be numbers; {refused}.", field=name) from None
     if n_dimensions is not None and values.ndim != n_dimensions:
         raise InvalidModel(f"{name} must be a list of numbers; their shape is {values.shape}.", field=name)
     if not np.isfinite(values).all():

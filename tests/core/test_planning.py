@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from irl_core import (
-    InvalidWorld,
+    IrlError,
     World,
     generate_world,
     hard_plan,
@@ -199,12 +199,12 @@ def test_at_zero_reward_the_infinite_sum_does_not_exist():
         (np.zeros(8), None, "must be 9 finite numbers"),
         (np.full(9, np.nan), None, "must be 9 finite numbers"),
         (np.full(9, np.inf), None, "must be 9 finite numbers"),
-        (np.zeros(9), 0, "at least 1 step"),
+        (np.zeros(9), 0, "whole number from 1"),
         (np.zeros(9), 3, "No goal can be reached within 3 steps"),
     ],
 )
 def test_a_reward_or_horizon_that_cannot_be_planned_with_is_refused(reward, horizon, said):
-    with pytest.raises(InvalidWorld, match=said):
+    with pytest.raises(IrlError, match=said):
         soft_plan(make_world(3, 3), reward, horizon=horizon)
 
 

@@ -87,7 +87,7 @@ def as_costs(problem: LearningProblem, reward: Reward) -> Reward:
 
 def planned_policy(problem: LearningProblem, costs: Reward) -> Policy:
     """The optimal plan that must reach a goal, as a stationary policy of shape (S, A)."""
-    plan = greedy_plan(problem.model, costs)  # type: ignore[arg-type]  # a GridMdp has what planning asks of a World
+    plan = greedy_plan(problem.model, costs)
     policy: Policy = np.zeros((problem.mdp.n_states, problem.mdp.n_actions))
     policy[np.arange(problem.mdp.n_states), plan.actions[-1]] = 1.0
     return policy
