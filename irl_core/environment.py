@@ -20,11 +20,12 @@ import gymnasium
 from gymnasium import spaces
 
 from irl_core.arrays import Vector
-from irl_core.errors import InvalidWorld
+from irl_core.checks import is_integer, shown
+from irl_core.errors import ImpossibleDemonstration, InvalidWorld
 from irl_core.grid import N_ACTIONS
 from irl_core.gridworld import DEFAULT_RED_PROBABILITY, DEFAULT_SIDE, generate_world
 from irl_core.picture import Image, draw_world
-from irl_core.types import World
+from irl_core.types import World, check_world
 
 ENVIRONMENT_ID: Final = "irlfr/Gridworld-v0"
 DEFAULT_WORLD_SEED: Final = 7
@@ -64,7 +65,7 @@ class GridworldEnv(gymnasium.Env[Any, Any]):
         self._generate = {
             "rows": rows, "cols": cols, "red_probability": red_probability, "slip": slip, "walls": walls,
         }  # fmt: skip
-        self.world = self._generated(world_seed) if world is None else world
+        self.world = self._generated(world_seed) if world is None else check_world(world)
         self.render_mode = render_mode
         self.observation_space = spaces.Discrete(self.world.n_states)
         self.action_space = spaces.Discrete(N_ACTIONS)
@@ -81,6 +82,8 @@ class GridworldEnv(gymnasium.Env[Any, Any]):
 
     def step(self, action: int) -> tuple[int, float, bool, bool, dict[str, Any]]:
         """One step. `info` has the total so far, the number of steps, and the direction really taken."""
+        if not is_integer(action) or not 0 <= int(action) < N_ACTIONS:
+            raise ImpossibleDemonstration(f"an action is 0 up, 1 right, 2 down or 3 left, not {shown(action)}.")
         direction = self._direction(int(action))
         if self.state not in self.world.goals:
             self.state = int(self.world.next_states[self.state, direction])

@@ -22,12 +22,13 @@ from typing import Any, Final, Literal, Protocol, Self, TypeAlias, get_args
 
 import numpy as np
 
-from irl_core.array_checks import float_array
+from irl_core.array_checks import finite_array, float_array
 from irl_core.arrays import IntMatrix, Matrix, Vector, read_only
 from irl_core.checks import Refused, is_integer, shown
 from irl_core.errors import InvalidFeatures
 from irl_core.mdp.grid import GridMdp
 from irl_core.types import World
+from irl_core.world_checks import is_list
 
 FeatureName: TypeAlias = Literal["one_hot", "colour", "position", "colour_position", "tiles"]
 FEATURE_NAMES: Final[tuple[FeatureName, ...]] = get_args(FeatureName)
@@ -68,11 +69,7 @@ class FeatureMap:
 
     def reward(self, weights: Vector) -> Vector:
         """R = φw, shape (S,), of weights, shape (K,). Raises InvalidFeatures. One-hot gives the weights themselves."""
-        if weights.shape != (self.n_features,):
-            raise InvalidFeatures(
-                f"There must be {self.n_features} weights, one a feature; their shape is {weights.shape}.",
-                field="weights",
-            )
+        weights = _vector("weights", weights, f"{self.n_features} finite numbers, one a feature", self.n_features)
         if self.active is not None:
             # The weight behind the last one is what −1 finds: no feature, no reward.
             paid: Vector = np.append(weights, 0.0)[self.active].sum(axis=1)
@@ -85,10 +82,7 @@ class FeatureMap:
 
     def counts(self, visits: Vector) -> Vector:
         """φᵀμ, shape (K,), of visits μ of shape (S,). Raises InvalidFeatures. One-hot gives the visits themselves."""
-        if visits.shape != (self.n_states,):
-            raise InvalidFeatures(
-                f"There must be {self.n_states} visits, one a state; their shape is {visits.shape}.", field="visits"
-            )
+        visits = _vector("visits", visits, f"{self.n_states} finite numbers, one a state", self.n_states)
         if self.active is not None:
             each = np.repeat(visits, self.active.shape[1])
             counted = np.bincount(self.active.reshape(-1) + 1, each, self.n_features + 1)
@@ -136,11 +130,16 @@ def features_of(name: str, model: World | GridMdp | HasStates) -> FeatureMap:
 
 def one_hot(n_states: int) -> FeatureMap:
     """A feature for each state: K = S, φw = w."""
+    if not is_integer(n_states) or n_states < 1:
+        raise InvalidFeatures(
+            f"n_states must be a whole number of at least 1, not {shown(n_states)}.", field="n_states"
+        )
     return FeatureMap("one_hot", n_states, n_states)
 
 
 def colour_class(world: World) -> FeatureMap:
     """What a person sees of each square, red, blue or goal: never what it pays. Walls have no feature."""
+    world = _as_world("colour", world)
     number = {colour: k for k, colour in enumerate(COLOUR_CLASSES)}
     seen = [[number.get(colour, -1)] for row in world.colours for colour in row]
     return FeatureMap("colour", world.n_states, len(COLOUR_CLASSES), active=np.array(seen, dtype=np.int64))
@@ -148,6 +147,7 @@ def colour_class(world: World) -> FeatureMap:
 
 def position(model: World | GridMdp) -> FeatureMap:
     """Each step alike (1), and row and column scaled to [0, 1]."""
+    model = _as_grid("position", model)
     matrix = np.column_stack([np.ones(model.n_states), _scaled_position(model)])
     return FeatureMap("position", model.n_states, 3, matrix=np.ascontiguousarray(matrix))
 
@@ -166,6 +166,7 @@ def tiles(
     Squares under one tile share its weight, so that a reward learned at one carries over to its neighbours. Raises
     InvalidFeatures unless side is at least 1 and each offset lies from 0 to side − 1.
     """
+    model = _as_grid("tiles", model)
     _check_tilings(side, offsets)
     rows, cols = np.divmod(np.arange(model.n_states), model.cols)
     active: IntMatrix = np.empty((model.n_states, len(offsets)), dtype=np.int64)
@@ -200,6 +201,11 @@ def from_matrix(matrix: Any, *, name: str = "matrix") -> FeatureMap:  # noqa: AN
     return FeatureMap(name, *checked.shape, matrix=checked)
 
 
+def _vector(name: str, given: object, wanted: str, length: int) -> Vector:
+    checked: Vector = finite_array(name, given, shape=(length,), wanted=wanted, error=InvalidFeatures)
+    return checked
+
+
 def _check_rank(matrix: Matrix) -> None:
     """Gram–Schmidt from left to right: the first column that leaves nothing new depends on those before it."""
     basis: list[Vector] = []
@@ -232,12 +238,16 @@ def _those_behind(matrix: Matrix, k: int) -> str:
 def _check_tilings(side: int, offsets: Sequence[Sequence[int]]) -> None:
     if not is_integer(side) or int(side) < 1:
         raise InvalidFeatures(f"side must be a whole number of at least 1, not {shown(side)}.", field="side")
-    if not offsets:
+    if not is_list(offsets) or len(offsets) == 0:
         raise InvalidFeatures("offsets must name at least one tiling, such as (0, 0).", field="offsets")
     for offset in offsets:
-        if len(offset) != 2 or not all(is_integer(shift) and 0 <= int(shift) < side for shift in offset):
+        if (
+            not is_list(offset)
+            or len(offset) != 2
+            or not all(is_integer(shift) and 0 <= int(shift) < side for shift in offset)
+        ):
             raise InvalidFeatures(
-                f"Each offset must be two whole numbers from 0 to {side - 1}, rows and columns, not {tuple(offset)}.",
+                f"Each offset must be two whole numbers from 0 to {side - 1}, rows and columns, not {offset!r:.60}.",
                 field="offsets",
             )
 

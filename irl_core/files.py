@@ -23,7 +23,7 @@ from typing import Any, Final, NoReturn, TypeAlias
 from irl_core.checks import Refused, finite, identifier, shown
 from irl_core.errors import InvalidFile, IrlError
 from irl_core.gridworld import simulate
-from irl_core.types import Demonstration, DemonstrationOutcome, Ranking, World
+from irl_core.types import Demonstration, DemonstrationOutcome, Ranking, World, check_demonstrations, check_world
 
 MAX_LINES: Final = 100_000
 MAX_LINE_LENGTH: Final = 1_000_000
@@ -107,11 +107,11 @@ def write_demonstration_file(
     more: Mapping[str, Mapping[str, Any]] | None = None,
 ) -> str:
     """The text of a file of one world. `more` holds further fields by demonstration id (step_ms, created_at, …)."""
+    check_world(world)
+    played = check_demonstrations(demonstrations)
     link = {} if world_id is None else {"world_id": world_id}
     records: list[_Record] = [{"kind": "world", **({} if world_id is None else {"id": world_id}), **world.to_json()}]
-    records += [
-        {"kind": "demonstration", **link, **(more or {}).get(one.id, {}), **one.to_json()} for one in demonstrations
-    ]
+    records += [{"kind": "demonstration", **link, **(more or {}).get(one.id, {}), **one.to_json()} for one in played]
     for ranking in rankings:
         order = [list(group) for group in ranking.groups]
         records.append({"kind": "ranking", **link, "outcome": ranking.outcome, "order": order})

@@ -31,11 +31,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from irl_core import _kernels
+from irl_core.array_checks import float_array
 from irl_core.arrays import IntVector, Matrix, Vector, read_only
 from irl_core.checks import Refused, real_number, shown, whole_number
 from irl_core.errors import InvalidModel, InvalidReward, InvalidSettings
 from irl_core.inference.path_infinite import path_kinds
 from irl_core.mdp.grid import GridMdp
+from irl_core.world_checks import is_list
 
 _FIRST_WEIGHT = -np.log(4.0) - 0.3
 
@@ -94,15 +96,15 @@ def fit_maxent(
 
 
 def _check_counts(mdps: Sequence[GridMdp], counts: Matrix) -> Matrix:
-    if not mdps:
-        raise InvalidModel("A fit needs at least one grid.", field="mdps")
+    if not is_list(mdps) or len(mdps) == 0 or not all(isinstance(mdp, GridMdp) for mdp in mdps):
+        raise InvalidModel("mdps must be a list of at least one GridMdp (of a World: world.mdp).", field="mdps")
     shapes = {(mdp.rows, mdp.cols) for mdp in mdps}
     if len(shapes) > 1:
         raise InvalidModel(f"The grids of a fit have one size; here are {sorted(shapes)}.", field="mdps")
     try:
-        checked: Matrix = np.array(counts, dtype=np.float64, order="C")
-    except (TypeError, ValueError):
-        raise InvalidReward("counts must be numbers, shape (worlds, states).", field="counts") from None
+        checked: Matrix = float_array(counts).copy()
+    except Refused as refused:
+        raise InvalidReward(f"counts must be numbers, shape (worlds, states); {refused}.", field="counts") from None
     wanted = (len(mdps), mdps[0].n_states)
     if checked.shape != wanted:
         raise InvalidReward(f"counts must have the shape {wanted}, not {checked.shape}.", field="counts")

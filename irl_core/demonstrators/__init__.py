@@ -13,13 +13,14 @@ from typing import Final, TypeAlias
 
 import numpy as np
 
+from irl_core.array_checks import check_generator
 from irl_core.checks import Refused, real_number, shown, whole_number
 from irl_core.demonstrators import kinds
 from irl_core.demonstrators.play import Laws, play
 from irl_core.demonstrators.ranking import rank_by_total
 from irl_core.errors import InvalidSettings
 from irl_core.gridworld import simulate
-from irl_core.types import OUTCOMES, Demonstration, DemonstrationOutcome, Ranking, World
+from irl_core.types import OUTCOMES, Demonstration, DemonstrationOutcome, Ranking, World, check_world
 
 MOST_ATTEMPTS: Final = 300
 _AT_ONCE: Final = 30
@@ -75,8 +76,10 @@ def demonstrate(
 ) -> Demonstrated | None:
     """The first successes and failures of this kind of person that reach a goal, ranked, or None after 300 attempts.
 
-    `ranking_noise` and `ties_within` are in points of reward (see `ranking.py`). Raises InvalidSettings.
+    `ranking_noise` and `ties_within` are in points of reward (see `ranking.py`). Raises InvalidSettings, InvalidModel.
     """
+    check_world(world)
+    check_generator(rng)
     wanted = _wanted(n_successes, n_failures)
     noise, within = _distance("ranking_noise", ranking_noise), _distance("ties_within", ties_within)
     kept: dict[DemonstrationOutcome, list[Demonstration]] = {outcome: [] for outcome in OUTCOMES}
@@ -97,7 +100,7 @@ def demonstrator_named(kind: str | Demonstrator) -> Demonstrator:
     """The demonstrator of this name; raises InvalidSettings, with the names there are."""
     if isinstance(kind, Demonstrator):
         return kind
-    if kind not in DEMONSTRATORS:
+    if not any(kind == name for name in DEMONSTRATORS):
         raise InvalidSettings(
             f"There is no demonstrator {shown(kind)}; there are {', '.join(DEMONSTRATORS)}.", field="demonstrators"
         )

@@ -10,7 +10,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from irl_core.types import Demonstration, DemonstrationOutcome, Ranking
+from irl_core.array_checks import check_generator
+from irl_core.checks import Refused, real_number
+from irl_core.errors import InvalidSettings
+from irl_core.types import Demonstration, DemonstrationOutcome, Ranking, check_demonstrations
 
 
 def rank_by_total(
@@ -21,7 +24,14 @@ def rank_by_total(
     noise: float = 0.0,
     ties_within: float = 0.0,
 ) -> Ranking:
-    """The order in which somebody puts attempts of one outcome; `noise` and `ties_within` are in points of reward."""
+    """The order in which somebody puts attempts of one outcome; `noise` and `ties_within` are in points of reward.
+
+    Raises ImpossibleDemonstration, InvalidSettings.
+    """
+    check_demonstrations(demonstrations)
+    check_generator(rng)
+    _check_distance("noise", noise)
+    _check_distance("ties_within", ties_within)
     sign = 1.0 if outcome == "success" else -1.0
     mistakes = noise * rng.gumbel(size=len(demonstrations))
     seems = {one.id: sign * one.total + float(mistake) for one, mistake in zip(demonstrations, mistakes, strict=True)}
@@ -32,3 +42,10 @@ def rank_by_total(
         else:
             groups.append([id_])
     return Ranking(outcome, tuple(tuple(group) for group in groups))
+
+
+def _check_distance(name: str, value: object) -> None:
+    try:
+        real_number(value, minimum=0.0)
+    except Refused as refused:
+        raise InvalidSettings(f"{name} {refused}.", field=name) from None

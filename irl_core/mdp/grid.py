@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from irl_core import grid
-from irl_core.array_checks import float_array
+from irl_core.array_checks import MAX_HORIZON, float_array
 from irl_core.arrays import BoolVector, IntMatrix, IntVector, Vector, read_only
 from irl_core.checks import Refused, is_integer, shown
 from irl_core.errors import InvalidModel
@@ -128,10 +128,10 @@ class GridMdp:
         shortest = int(steps[steps >= 0].min())
         if not self.horizon:
             self._set("horizon", grid.default_horizon(self.rows, self.cols, shortest=shortest))
-        if not is_integer(self.horizon) or self.horizon < shortest:
+        if not is_integer(self.horizon) or not shortest <= self.horizon <= MAX_HORIZON:
             raise InvalidModel(
                 f"horizon must be a whole number of at least {shortest} steps, the shortest way to a goal, not"
-                f" {shown(self.horizon)}.",
+                f" {shown(self.horizon)}, and at most {MAX_HORIZON}.",
                 field="horizon",
             )
 

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from irl_core.array_checks import float_array
+from irl_core.array_checks import MAX_HORIZON, float_array
 from irl_core.arrays import BoolVector, IntVector, Matrix, Vector, read_only
 from irl_core.checks import Refused, is_integer, shown
 from irl_core.errors import InvalidModel
@@ -208,10 +208,10 @@ class SparseMdp:
         shortest = self._shortest_way()
         if self.horizon == 0:
             self._set("horizon", max(min(2 * self.n_states, _USUAL_HORIZON), 2 * shortest))
-        if not is_integer(self.horizon) or self.horizon < max(shortest, 1):
+        if not is_integer(self.horizon) or not max(shortest, 1) <= self.horizon <= MAX_HORIZON:
             raise InvalidModel(
                 f"horizon must be a whole number of at least {max(shortest, 1)} steps, the shortest way to a terminal"
-                f" state, not {shown(self.horizon)}.",
+                f" state, not {shown(self.horizon)}, and at most {MAX_HORIZON}.",
                 field="horizon",
             )
         self._set("horizon", int(self.horizon))

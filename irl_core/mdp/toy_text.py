@@ -47,7 +47,7 @@ def from_gymnasium(env: HasTable, *, start: int | Vector | None = None, horizon:
     table = getattr(bare, "P", None)
     if not isinstance(table, Mapping | Sequence) or len(table) == 0:
         raise InvalidModel(f"env must be {_HELP}; {type(bare).__name__} has no P.", field="env")
-    n_states, n_actions = len(table), len(table[0])
+    n_states, n_actions = len(table), _n_actions(table)
     entries = _entries(table, n_states=n_states, n_actions=n_actions)
     began = _start(bare) if start is None else start
     terminal = np.zeros(n_states, dtype=np.bool_)
@@ -66,6 +66,13 @@ def from_gymnasium(env: HasTable, *, start: int | Vector | None = None, horizon:
     )
     _check_ends(model, entries, kept)
     return model
+
+
+def _n_actions(table: Any) -> int:  # noqa: ANN401 - outside data
+    try:
+        return len(table[0])
+    except (IndexError, KeyError, TypeError) as error:
+        raise InvalidModel(f"env must be {_HELP}; its P has no state 0: {error!r}.", field="env") from error
 
 
 def _entries(table: Any, *, n_states: int, n_actions: int) -> _Entries:  # noqa: ANN401 - outside data
