@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from typing import Any, Final, NoReturn, TypeAlias
 
 from irl_core.checks import Refused, finite, identifier, shown
-from irl_core.errors import InvalidFile, IrlError
+from irl_core.errors import InvalidFile, InvalidRanking, IrlError
 from irl_core.gridworld import simulate
 from irl_core.types import Demonstration, DemonstrationOutcome, Ranking, World, check_demonstrations, check_world
 
@@ -113,6 +113,8 @@ def write_demonstration_file(
     records: list[_Record] = [{"kind": "world", **({} if world_id is None else {"id": world_id}), **world.to_json()}]
     records += [{"kind": "demonstration", **link, **(more or {}).get(one.id, {}), **one.to_json()} for one in played]
     for ranking in rankings:
+        if not isinstance(ranking, Ranking):
+            raise InvalidRanking(f"rankings must be Rankings; here is {shown(ranking)}.", field="rankings")
         order = [list(group) for group in ranking.groups]
         records.append({"kind": "ranking", **link, "outcome": ranking.outcome, "order": order})
     return _lines(records)
@@ -232,7 +234,7 @@ def _numbered_lines(source: Source) -> Iterator[tuple[int, str]]:
 
 def _read(source: Source) -> Iterator[str]:
     if not isinstance(source, str | os.PathLike):
-        yield from source
+        yield from _given_lines(source)
         return
     try:
         with open(source, encoding="utf-8-sig") as file:  # noqa: PTH123 - reads a line by pieces no longer than allowed
@@ -242,6 +244,15 @@ def _read(source: Source) -> Iterator[str]:
         raise InvalidFile(f"The file is not UTF-8 text: {error.reason}.") from error
     except OSError as error:
         raise InvalidFile(f"The file cannot be read: {error.strerror}.") from error
+
+
+def _given_lines(source: Iterable[str]) -> Iterator[str]:
+    if not isinstance(source, Iterable):
+        raise InvalidFile(f"A demonstration file is a path or lines of text, not {shown(source)}.")
+    for number, line in enumerate(source, start=1):
+        if not isinstance(line, str):
+            _refuse(f"a line is a text, not {shown(line)}", number, None)
+        yield line
 
 
 def _parse(line: str, number: int) -> _Record:

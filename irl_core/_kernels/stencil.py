@@ -17,8 +17,6 @@ The rows of `chain` are the memory of a block of worlds: Z_n in row n mod `every
 behind these; then two rows for the forward pass. `shifts[n]` is by how many bits Z_n was scaled down, world by world.
 """
 
-# ruff: noqa: PLR0917 - a kernel takes its arrays one by one
-
 import math
 from typing import TypeAlias
 

@@ -13,6 +13,8 @@ from typing import Final
 import numpy as np
 
 from irl_core.arrays import Reward
+from irl_core.checks import is_integer
+from irl_core.checks import shown as in_words
 from irl_core.demonstrators import MOST_ATTEMPTS, Demonstrated, demonstrate, demonstrator_named
 from irl_core.errors import DivergentPartition, InvalidSettings, InvalidWorld, MissingDemonstrations
 from irl_core.evaluation import expected_return, greedy_plan, optimum, rollouts
@@ -29,8 +31,12 @@ _TO_THE_END: Final = 1_000_000
 def run_chunk(spec: ExperimentSpec, kind: str, first: int, last: int) -> list[WorldOutcome]:
     """The outcomes of worlds `first` up to, but without, `last`. Raises InvalidSettings or InvalidWorld."""
     demonstrator_named(kind)
-    if not 0 <= first <= last:
-        raise InvalidSettings(f"A chunk runs from a world to a later one, not from {first} to {last}.", field="first")
+    if not isinstance(spec, ExperimentSpec):
+        raise InvalidSettings(f"spec must be an ExperimentSpec, not {in_words(spec)}.", field="spec")
+    if not is_integer(first) or not is_integer(last) or not 0 <= int(first) <= int(last):
+        raise InvalidSettings(
+            f"A chunk runs from a world to a later one, not from {in_words(first)} to {in_words(last)}.", field="first"
+        )
     return [run_world(spec, kind, index) for index in range(first, last)]
 
 

@@ -53,6 +53,8 @@ class ExperimentSpec:
             _check(name, lambda value, a=least, b=most: whole_number(value, minimum=a, maximum=b), self)
         for name, (lowest, highest) in _REAL.items():
             _check(name, lambda value, a=lowest, b=highest: real_number(value, minimum=a, maximum=b), self)
+        if not isinstance(self.settings, Settings):
+            raise InvalidSettings(f"settings must be Settings, not {shown(self.settings)}.", field="settings")
         needy = [name for name in self.learners if LEARNERS[name].uses_failures]
         if needy and self.n_failures == 0:
             raise InvalidSettings(
@@ -75,6 +77,8 @@ class ExperimentSpec:
 
 
 def _learners(names: Iterable[str]) -> tuple[str, ...]:
+    if isinstance(names, str) or not isinstance(names, Iterable):
+        raise InvalidSettings(f"learners must be a list of names, not {shown(names)}.", field="learners")
     listed = tuple(dict.fromkeys(names))
     for name in listed:
         if name not in LEARNERS:

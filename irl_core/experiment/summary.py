@@ -14,6 +14,7 @@ from typing import Any, Final
 import numpy as np
 
 from irl_core.arrays import Matrix, Vector
+from irl_core.checks import shown
 from irl_core.errors import IrlError
 from irl_core.experiment.bootstrap import Estimate, Resamples, estimate
 from irl_core.experiment.outcomes import MEASURES, Measure, WorldOutcome, finite_or_none
@@ -106,7 +107,10 @@ def summarise(outcomes: Iterable[WorldOutcome], *, seed: int = 0) -> tuple[KindS
     The order of worlds changes nothing. Raises IrlError where worlds differ in their learners or come twice.
     """
     by_kind: dict[str, dict[int, WorldOutcome]] = {}
-    for one in outcomes:
+    given: Any = outcomes
+    for one in given if isinstance(given, Iterable) else [given]:
+        if not isinstance(one, WorldOutcome):
+            raise IrlError(f"outcomes must be a list of WorldOutcomes; here is {shown(one)}.", field="outcomes")
         worlds = by_kind.setdefault(one.demonstrator, {})
         if one.index in worlds:
             raise IrlError(f"World {one.index} of {one.demonstrator} comes twice.", field="outcomes")

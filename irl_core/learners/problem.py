@@ -152,6 +152,8 @@ class LearningProblem:
         ids = [one.id for one in kept]
         if not ranked or len(ids) == 1:
             return uniform_weights(ids)
+        if outcome not in self.orders:
+            raise MissingDemonstrations(f"There is no order of the {outcome} demonstrations.", field="rankings")
         groups = [[id_ for id_ in group if id_ in ids] for group in self.orders[outcome]]
         return rank_weights([group for group in groups if group])
 

@@ -9,6 +9,7 @@ import pytest
 import irl_core as irl
 from irl_core import features
 from irl_core.demonstrators import demonstrate, rank_by_total
+from irl_core.experiment import ExperimentSpec, run_chunk, summarise
 from irl_core.influence import influence, what_if
 from irl_core.maxent import fit_maxent
 from irl_core.simulators import TableSimulator
@@ -428,6 +429,18 @@ def test_a_model_refuses_a_horizon_that_would_never_end(build, horizon):
         (lambda given: rank_by_total("success", [WALKED], np.random.default_rng(0), ties_within=given), -1),
         (lambda given: irl.write_demonstration_file(given, []), None),
         (lambda given: irl.write_demonstration_file(WORLD, given), ["walked"]),
+        (irl.read_demonstration_file, None),
+        (irl.read_demonstration_file, 5),
+        (irl.read_demonstration_file, [1]),
+        (lambda given: irl.write_demonstration_file(WORLD, [WALKED], given), [3]),
+        (lambda given: ExperimentSpec(learners=given), None),
+        (lambda given: ExperimentSpec(learners=given), "meirl"),
+        (lambda given: ExperimentSpec(settings=given), "x"),
+        (lambda given: run_chunk(given, "wanderer", 0, 1), None),
+        (lambda given: run_chunk(ExperimentSpec(), "wanderer", given, 1), "a"),
+        (lambda given: run_chunk(ExperimentSpec(), "wanderer", 0, given), 1.5),
+        (summarise, None),
+        (summarise, ["x"]),
         (irl.LearningState.from_json, {"learner": "meirl", "iteration": "x", "values": {}, "outcome": None}),
     ],
 )
