@@ -96,7 +96,18 @@ def test_a_folder_that_cannot_be_written_is_said_before_the_work(tmp_path, monke
 
 @pytest.mark.skipif(os.name == "nt", reason="signals to a group are another thing there")
 def test_ctrl_c_ends_in_a_sentence_and_leaves_no_process(tmp_path):
-    """As a terminal does it: the signal goes to every process of the group."""
+    """As a terminal does it: the signal goes to every process of the group.
+
+    What runs in the background of a shell ignores Ctrl-C and hands that down; a handler of ours is not handed down.
+    """
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        _interrupt_an_experiment(tmp_path)
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def _interrupt_an_experiment(tmp_path):
     out = tmp_path / "out"
     command = [sys.executable, "-m", "app.cli", "experiment", "--worlds", "2000", "--processes", "2"]
     with subprocess.Popen(
