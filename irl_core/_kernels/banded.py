@@ -95,10 +95,24 @@ def _solve_transposed(band, x, b):
 
 @njit(cache=True, error_model="numpy")
 def mark_each_way(kinds, starts):
-    """`mark_the_way` for B grids, (B, rows, cols)."""
+    """`mark_the_way` for B grids, (B, rows, cols). One laid out and started as the one before it is copied."""
     stack = np.empty(starts[0].size, dtype=np.int32)
+    before = np.empty_like(kinds[0])
     for world in range(len(kinds)):
+        if world > 0 and _is_equal(kinds[world], before) and _is_equal(starts[world], starts[world - 1]):
+            kinds[world] = kinds[world - 1]
+            continue
+        before[:] = kinds[world]
         mark_the_way(kinds[world], starts[world], stack)
+
+
+@njit(cache=True, error_model="numpy")
+def _is_equal(one, other):
+    for i in range(one.shape[0]):
+        for j in range(one.shape[1]):
+            if one[i, j] != other[i, j]:
+                return False
+    return True
 
 
 @njit(cache=True, error_model="numpy")
