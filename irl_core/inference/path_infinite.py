@@ -90,7 +90,7 @@ def infer_path_infinite_batch(mdps: Sequence[GridMdp], rewards: Matrix, *, start
     """
     n_worlds, n_states = rewards.shape
     shape = (n_worlds, mdps[0].rows, mdps[0].cols)
-    begun = np.require(starts, np.float64, "CW")  # as Numba has compiled it; nothing is written
+    begun = np.require(starts, np.float64, ("C", "W"))  # as Numba has compiled it; nothing is written
     kinds = _kinds(mdps, begun)
     with np.errstate(over="ignore", under="ignore"):  # what leaves the range of floats is not trusted, and solved apart
         pays, inverse = np.exp(rewards), np.exp(-rewards)
