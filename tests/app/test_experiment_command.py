@@ -94,7 +94,7 @@ def test_a_folder_that_cannot_be_written_is_said_before_the_work(tmp_path, monke
     assert "file" in done.output
 
 
-@pytest.mark.skipif(os.name == "nt", reason="signals to a group are another thing there")
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no group of processes to send Ctrl-C to")
 def test_ctrl_c_ends_in_a_sentence_and_leaves_no_process(tmp_path):
     """As a terminal does it: the signal goes to every process of the group.
 
