@@ -19,6 +19,7 @@ export function makeWorld(rewards, more = {}) {
     red_probability: 0.3,
     slip: 0,
     horizon: 50,
+    time_limit_s: null,
     ...more,
   };
 }

@@ -15,7 +15,25 @@
  * @property {number | null} red_probability
  * @property {number} slip
  * @property {number} horizon        steps
+ * @property {number | null} time_limit_s  seconds
+ * @property {WorldSpec} [spec]      what makes this world again
  * @property {boolean} [success_possible]
+ */
+
+/**
+ * The smallest body from which the server makes a world; what is left out has its default.
+ * @typedef {object} WorldSpec
+ * @property {number} [seed]
+ * @property {number} [rows]
+ * @property {number} [cols]
+ * @property {number} [red_probability]
+ * @property {number} [slip]
+ * @property {number[]} [walls]
+ * @property {number} [start]
+ * @property {number[]} [goals]
+ * @property {[square: number, reward: number][]} [painted]
+ * @property {number | null} [step_limit]
+ * @property {number | null} [time_limit_s]  seconds
  */
 
 /**

@@ -27,7 +27,7 @@ export function keptAttempt(world) {
     const { id, actions, stepMs } = JSON.parse(localStorage.getItem(keyOf(world.id)) ?? "null");
     const isSound =
       typeof id === "string" && actions.every((/** @type {unknown} */ a) => [0, 1, 2, 3].includes(Number(a)));
-    const attempt = isSound ? replayActions(world, id, actions, stepMs) : null;
+    const attempt = isSound ? replayActions(world, { id, actions, stepMs }) : null;
     return attempt && attempt.actions.length > 0 && attempt.ending === null ? attempt : null;
   } catch {
     return null;

@@ -205,7 +205,11 @@ export class Collection {
 
   /** @param {import("#js/lib/outbox.js").Parcel} parcel @returns {Entry} */
   #entryOfParcel(parcel) {
-    const walked = replayActions(this.#world, parcel.id, parcel.body.actions, parcel.body.step_ms);
+    const walked = replayActions(this.#world, {
+      id: parcel.id,
+      actions: parcel.body.actions,
+      stepMs: parcel.body.step_ms,
+    });
     return {
       id: parcel.id,
       states: walked.states,
