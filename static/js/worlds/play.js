@@ -38,17 +38,17 @@ class PlayPage {
     this.#board.world = this.#world;
     byId("play").style.setProperty("--world-ratio", String(this.#world.cols / this.#world.rows));
     this.#resume();
-    listenToKeys(this, this.#life.signal);
+    listenToKeys(this, { signal: this.#life.signal });
     listenToPointer(this.#board, this, this.#life.signal);
     this.#listenToButtons();
     this.#collection.start(this.#life.signal);
     this.#show();
   }
 
-  /** @param {number} action @param {number} when ms */
-  move(action, when) {
+  /** @param {number} action @param {import("#js/board/input.js").Press} press */
+  move(action, { when }) {
     if (this.#slot.dataset.shows === "replay") this.#endReplay();
-    if (this.#attempt.ending !== null) return;
+    if (this.#attempt.ending !== null) return false;
     const before = stateOf(this.#attempt);
     const ms = Math.min(LONGEST_STEP_MS, Math.max(0, Math.round((when - this.#lastEvent) * 10) / 10));
     this.#lastEvent = when;
@@ -63,19 +63,27 @@ class PlayPage {
       this.#speak(`${isSlip ? `Slipped ${DIRECTIONS[taken]}. ` : ""}${reached === before ? "Bumped. " : ""}`);
     else this.#finish();
     keepAttempt(this.#world.id, this.#attempt);
+    return this.#attempt.ending === null;
   }
 
-  /** A tap on a square beside the agent is a step to it. @param {number} state @param {number} when ms */
-  tap(state, when) {
+  /** A tap on a square beside the agent is a step to it. @param {number} state @param {import("#js/board/input.js").Press} press */
+  tap(state, press) {
     const here = stateOf(this.#attempt);
     const action = [0, 1, 2, 3].find(
       (direction) => state !== here && nextState(this.#world, here, direction) === state,
     );
-    if (action !== undefined) this.move(action, when);
+    if (action !== undefined) this.move(action, press);
+  }
+
+  /** What lies one square on, without going there. @param {number} direction */
+  look(direction) {
+    announce(describePosition(this.#world, nextState(this.#world, stateOf(this.#attempt), direction)));
   }
 
   /** @param {string} command */
   command(command) {
+    if (command === "where") return this.#speak("", false);
+    if (command === "sound") return;
     const shows = this.#slot.dataset.shows;
     if (shows === "replay") this.#endReplay();
     if (command === "endReplay") return;
@@ -205,7 +213,7 @@ class PlayPage {
       const button = event.target instanceof Element ? event.target.closest("button") : null;
       if (!button) return;
       const { move, command, speed } = button.dataset;
-      if (move !== undefined) this.move(Number(move), event.timeStamp);
+      if (move !== undefined) this.move(Number(move), { when: event.timeStamp, device: "pad" });
       else if (command !== undefined) this.command(command);
       else if (speed !== undefined) this.#setSpeed(Number(speed));
       // A button that has done its work for now would take the focus with it.
