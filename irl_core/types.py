@@ -12,12 +12,14 @@ from irl_core.arrays import IntMatrix, IntVector, Matrix, Vector, read_only
 from irl_core.checks import shown
 from irl_core.errors import ImpossibleDemonstration, InvalidModel, InvalidRanking, InvalidWorld
 from irl_core.mdp.grid import GridMdp
-from irl_core.world_checks import is_list, real, rewards_of, squares_of, whole
+from irl_core.world_checks import is_list, place, real, rewards_of, squares_of, whole
 
 MIN_SIDE: Final = 2
 MAX_SIDE: Final = 100
 MAX_SLIP: Final = 0.9
 MAX_SEED: Final = 2**53 - 1  # the largest integer that JSON and JavaScript carry exactly
+MIN_TIME_LIMIT_S: Final = 5
+MAX_TIME_LIMIT_S: Final = 3600
 RED_BELOW: Final = -1.0
 """Red squares pay U[−7, −1], blue ones U[−1, 0]: less than −1 is red."""
 
@@ -34,7 +36,8 @@ class World:
 
     `rewards` has shape (rows, cols); states are numbered row by row. `slip` is the probability that a step goes in one
     of the three other directions instead. `horizon`, the longest attempt, is min(2·rows·cols, 8·(rows + cols)) unless
-    given, never less than twice the shortest path. `seed` and `red_probability` say where the world came from.
+    given, never less than twice the shortest path. `time_limit_s`, if there is one, is a rule of play in seconds that no
+    learner looks at. `seed` and `red_probability` say where the world came from.
     """
 
     rows: int
@@ -47,6 +50,7 @@ class World:
     seed: int | None = None
     red_probability: float | None = None
     horizon: int = field(default=0, kw_only=True)
+    time_limit_s: int | None = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
         rows = whole("rows", self.rows, minimum=MIN_SIDE, maximum=MAX_SIDE)
@@ -62,6 +66,9 @@ class World:
         if self.red_probability is not None:
             share = real("red_probability", self.red_probability, minimum=0.0, maximum=1.0)
             self._set(red_probability=share)
+        if self.time_limit_s is not None:
+            limit = whole("time_limit_s", self.time_limit_s, minimum=MIN_TIME_LIMIT_S, maximum=MAX_TIME_LIMIT_S)
+            self._set(time_limit_s=limit)
         self._check_squares()
         self._settle_horizon()
 
@@ -95,6 +102,12 @@ class World:
         return GridMdp(self.rows, self.cols, self.goals, self.walls, self.slip, start=self.start, horizon=self.horizon)
 
     @cached_property
+    def shortest_way(self) -> int:
+        """The fewest steps from the start to a goal; −1 where the walls close every way."""
+        steps = grid.distances(self.next_states, self.start)[list(self.goals)]
+        return int(min(steps[steps >= 0], default=-1))
+
+    @cached_property
     def success_possible(self) -> bool:
         """Whether any attempt could reach a goal with a total of at least 0 (were every slip a lucky one)."""
         return grid.can_reach_total(
@@ -126,6 +139,7 @@ class World:
             "red_probability": self.red_probability,
             "slip": self.slip,
             "horizon": self.horizon,
+            "time_limit_s": self.time_limit_s,
             "success_possible": self.success_possible,
         }
 
@@ -150,6 +164,7 @@ class World:
             seed=data.get("seed"),
             red_probability=data.get("red_probability"),
             horizon=0 if horizon is None else whole("horizon", horizon, minimum=1, maximum=2 * rows * cols),
+            time_limit_s=data.get("time_limit_s"),
         )
 
     def __eq__(self, other: object) -> bool:
@@ -171,6 +186,7 @@ class World:
             self.seed,
             self.red_probability,
             self.horizon,
+            self.time_limit_s,
         )
 
     def _set(self, **values: object) -> None:
@@ -181,20 +197,22 @@ class World:
         if not self.goals:
             raise InvalidWorld("A world needs at least one goal.", field="goals")
         if self.start in self.goals:
-            raise InvalidWorld(f"The start, square {self.start}, cannot be a goal.", field="goals")
+            at = place(self.start, cols=self.cols)
+            raise InvalidWorld(f"The start, {at}, cannot be a goal too; move one of them.", field="goals")
         for name, taken in (("start", (self.start,)), ("goal", self.goals)):
             walled = [square for square in taken if square in self.walls]
             if walled:
-                raise InvalidWorld(f"Square {walled[0]} is the {name} and cannot be a wall.", field="walls")
+                at = place(walled[0], cols=self.cols)
+                raise InvalidWorld(f"The {name}, {at}, cannot be a wall too; open it or move the {name}.", field="walls")
 
     def _settle_horizon(self) -> None:
-        steps = grid.distances(self.next_states, self.start)[list(self.goals)]
-        if (steps < 0).all():
-            raise InvalidWorld("No goal can be reached from the start: the walls close the way.", field="walls")
-        shortest = int(steps[steps >= 0].min())
+        if self.shortest_way < 0:
+            raise InvalidWorld(
+                "No goal can be reached from the start: the walls close the way. Open one of them.", field="walls"
+            )
         if not self.horizon:  # 0, or None from a caller who says it in words
-            self._set(horizon=grid.default_horizon(self.rows, self.cols, shortest=shortest))
-        self._set(horizon=whole("horizon", self.horizon, minimum=shortest, maximum=2 * self.n_states))
+            self._set(horizon=grid.default_horizon(self.rows, self.cols, shortest=self.shortest_way))
+        self._set(horizon=whole("horizon", self.horizon, minimum=self.shortest_way, maximum=2 * self.n_states))
 
 
 @dataclass(frozen=True, eq=False)

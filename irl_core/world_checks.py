@@ -6,7 +6,7 @@ from typing import Any, Final
 import numpy as np
 
 from irl_core.arrays import Matrix, read_only
-from irl_core.checks import Refused, real_number, shown, whole_number
+from irl_core.checks import Refused, is_integer, real_number, shown, whole_number
 from irl_core.errors import InvalidWorld
 
 MAX_REWARD: Final = 1e6
@@ -33,10 +33,25 @@ def squares_of(name: str, values: Iterable[int], *, n_states: int) -> tuple[int,
     """Numbers of squares, none twice."""
     if not is_list(values):
         raise InvalidWorld(f"{name} must be a list of square numbers, not {shown(values)}.", field=name)
-    listed = [whole(name, value, minimum=0, maximum=n_states - 1) for value in values]
+    listed = [square_of(name, value, n_states=n_states) for value in values]
     if len(set(listed)) < len(listed):
         raise InvalidWorld(f"{name} names a square twice.", field=name)
     return tuple(listed)
+
+
+def square_of(name: str, value: object, *, n_states: int) -> int:
+    """The number of a square."""
+    if not is_integer(value) or not 0 <= int(value) < n_states:
+        raise InvalidWorld(
+            f"{name} must name squares of this world by their whole numbers, 0 to {n_states - 1}, not {shown(value)}.",
+            field=name,
+        )
+    return int(value)
+
+
+def place(square: int, *, cols: int) -> str:
+    """A square in words, as a person counts: square 12 (row 2, column 6)."""
+    return f"square {square} (row {square // cols + 1}, column {square % cols + 1})"
 
 
 def whole(name: str, value: object, *, minimum: int, maximum: int) -> int:
