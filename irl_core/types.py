@@ -36,8 +36,8 @@ class World:
 
     `rewards` has shape (rows, cols); states are numbered row by row. `slip` is the probability that a step goes in one
     of the three other directions instead. `horizon`, the longest attempt, is min(2·rows·cols, 8·(rows + cols)) unless
-    given, never less than twice the shortest path. `time_limit_s`, if there is one, is a rule of play in seconds that no
-    learner looks at. `seed` and `red_probability` say where the world came from.
+    given, never less than twice the shortest path. `time_limit_s`, if there is one, is a rule of play, in seconds; no
+    learner looks at it. `seed` and `red_probability` say where the world came from.
     """
 
     rows: int
@@ -203,7 +203,8 @@ class World:
             walled = [square for square in taken if square in self.walls]
             if walled:
                 at = place(walled[0], cols=self.cols)
-                raise InvalidWorld(f"The {name}, {at}, cannot be a wall too; open it or move the {name}.", field="walls")
+                message = f"The {name}, {at}, cannot be a wall too; open it or move the {name}."
+                raise InvalidWorld(message, field="walls")
 
     def _settle_horizon(self) -> None:
         if self.shortest_way < 0:
