@@ -13,6 +13,7 @@ import { number, plural, signed } from "#js/lib/format.js";
 import { pageData } from "#js/lib/page-data.js";
 import { keepAttempt, keptAttempt } from "#js/worlds/checkpoint.js";
 import { Collection } from "#js/worlds/collection.js";
+import { listenToGamepad } from "#js/worlds/gamepad.js";
 import { finishSentence } from "#js/worlds/sentences.js";
 
 /** @typedef {import("#js/board/moves.js").Attempt} Attempt */
@@ -40,6 +41,7 @@ class PlayPage {
     this.#resume();
     listenToKeys(this, { signal: this.#life.signal });
     listenToPointer(this.#board, this, this.#life.signal);
+    listenToGamepad(this, this.#life.signal);
     this.#listenToButtons();
     this.#collection.start(this.#life.signal);
     this.#show();
