@@ -5,7 +5,7 @@ import { isCovered, isTaken, letterOf } from "#js/lib/keys.js";
 
 /** @typedef {"key" | "hold" | "pad" | "swipe" | "tap" | "gamepad"} Device */
 /** @typedef {{when: number, device: Device}} Press   `when`: the event's time in ms */
-/** @typedef {"undo" | "restart" | "giveUp" | "again" | "endReplay" | "where" | "sound"} Command */
+/** @typedef {"undo" | "restart" | "giveUp" | "again" | "endReplay" | "branch" | "where" | "sound"} Command */
 
 /**
  * @typedef {object} Player
@@ -28,6 +28,7 @@ const COMMANDS = {
   g: "giveUp",
   i: "where",
   m: "sound",
+  t: "branch",
   escape: "endReplay",
 };
 const SWIPE = 24;
