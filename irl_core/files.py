@@ -8,9 +8,10 @@ one world):
     {"kind": "ranking", "world_id": "w", "outcome": "success", "order": [["d"], ["e", "f"]], …}
 
 Lines may come in any order; of two rankings of one outcome the later holds, as a later version does. Every
-demonstration is played again, with slips by its id, and what the line claims of it (states, rewards, total, outcome,
-ending) must be what happened. A demonstration with `"discarded": true` is read, kept and left out of learning. Fields
-that are not known are kept and written again; kinds that are not known are refused.
+demonstration is played again, with slips by its `slip_seeds` (pairs of a seed and the step from which it decides; its
+id if there are none), and what the line claims of it (states, rewards, total, outcome, ending) must be what happened.
+A demonstration with `"discarded": true` is read, kept and left out of learning. Fields that are not known are kept and
+written again; kinds that are not known are refused.
 """
 
 import json
@@ -194,8 +195,11 @@ class _Reader:
 
 def _played(world: World, id_: str, record: _Record, number: int) -> Demonstration:
     """The demonstration as it happens when played again; what the line claims of it must fit."""
+    actions, ending, seeds = record.get("actions", ()), record.get("ending"), record.get("slip_seeds")
     try:
-        demonstration = simulate(world, record.get("actions", ()), attempt_id=id_, ending=record.get("ending"))
+        demonstration = simulate(
+            world, actions, attempt_id=id_, ending=ending, slip_seeds=None if seeds in (None, []) else seeds
+        )
     except IrlError as error:
         raise InvalidFile(error.message, line=number, field=error.field) from None
     happened = demonstration.to_json()

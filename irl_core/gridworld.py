@@ -7,11 +7,13 @@ world can be asked for with another start, other goals, walls, and squares paint
 Play: a step pays the reward of the square reached, also when the edge or a wall held the agent where it was. The start
 square's own reward is not paid at the beginning. With slip p the intended direction is taken with probability 1 − p and
 each of the other three with p / 3. Which one is decided by a counter-based hash of the attempt's id and the step, so
-that the browser, without asking, plays the very attempt the server later replays.
+that the browser, without asking, plays the very attempt the server later replays. An attempt that began as a copy of
+another ("try again from here") slips in the copied steps by that one's id, and from there on by its own.
 """
 
+import itertools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -20,8 +22,19 @@ from irl_core.arrays import Matrix
 from irl_core.checks import Refused, finite, identifier, is_integer, shown
 from irl_core.errors import ImpossibleDemonstration, InvalidWorld
 from irl_core.grid import N_ACTIONS
-from irl_core.types import ENDINGS, MAX_SEED, MAX_SIDE, MAX_SLIP, MIN_SIDE, Demonstration, Ending, World, check_world
-from irl_core.world_checks import place, real, square_of, squares_of, whole
+from irl_core.types import (
+    ENDINGS,
+    MAX_SEED,
+    MAX_SIDE,
+    MAX_SLIP,
+    MIN_SIDE,
+    Demonstration,
+    Ending,
+    SlipSeeds,
+    World,
+    check_world,
+)
+from irl_core.world_checks import is_list, place, real, square_of, squares_of, whole
 
 DEFAULT_SIDE = 7
 DEFAULT_RED_PROBABILITY = 0.3
@@ -129,21 +142,24 @@ def simulate(
     attempt_id: str = "",
     ending: str | None = None,
     id: str | None = None,  # noqa: A002 - the field it sets
+    slip_seeds: Sequence[tuple[str, int]] | None = None,
 ) -> Demonstration:
     """Play the actions and tell what happened; raises ImpossibleDemonstration where they cannot have been played.
 
-    `attempt_id` decides the slips (and is the demonstration's id unless `id` says otherwise). `ending`, if claimed,
+    `attempt_id` decides the slips (and is the demonstration's id unless `id` says otherwise); `slip_seeds`, pairs of a
+    seed and the step from which it decides, do so in its place: `[("parent", 0), ("child", 5)]`. `ending`, if claimed,
     must fit what happened; otherwise it is found: at a goal, out of steps, or given up.
     """
     check_world(world)
     id_ = attempt_id if id is None else id
     _check_ids(attempt_id, id_)
     checked = _check_actions(world, actions)
+    seeds = ((attempt_id, 0),) if slip_seeds is None else _check_slip_seeds(slip_seeds, n_steps=len(checked))
     states, rewards = [world.start], []
-    for step, intended in enumerate(checked):
+    for step, (intended, seed) in enumerate(zip(checked, _seed_of_each_step(seeds, len(checked)), strict=True)):
         if states[-1] in world.goals:
             raise ImpossibleDemonstration("the goal was already reached; nothing comes after it.", step=step)
-        direction = _slipped(attempt_id, step, intended, world.slip)
+        direction = _slipped(seed, step, intended, world.slip)
         states.append(int(world.next_states[states[-1], direction]))
         rewards.append(float(world.reward[states[-1]]))
     at_goal, total = states[-1] in world.goals, math.fsum(rewards)
@@ -155,7 +171,14 @@ def simulate(
         total=total,
         outcome="success" if at_goal and total >= 0.0 else "failure",
         ending=_settle_ending(world, ending, at_goal=at_goal, n_steps=len(checked)),
+        slip_seeds=seeds,
     )
+
+
+def _seed_of_each_step(seeds: SlipSeeds, n_steps: int) -> Iterator[str]:
+    ends = [first for _, first in seeds[1:]] + [n_steps]
+    for (seed, first), end in zip(seeds, ends, strict=True):
+        yield from itertools.repeat(seed, end - first)
 
 
 def slip_direction(attempt_id: str, step: int, intended: int, slip: float) -> int:
@@ -252,6 +275,33 @@ def _check_ids(*ids: str) -> None:
         raise ImpossibleDemonstration(f"the attempt's id {refused}.", field="id") from None
 
 
+def _check_slip_seeds(slip_seeds: Sequence[tuple[str, int]], *, n_steps: int) -> SlipSeeds:
+    """Pairs of a text and a step: the first from step 0, each later one from a later step that was taken."""
+    if not is_list(slip_seeds) or not all(is_list(pair) and len(pair) == 2 for pair in slip_seeds):
+        raise ImpossibleDemonstration("slip_seeds must be a list of pairs: a seed and a step.", field="slip_seeds")
+    pairs = [(seed, first) for seed, first in slip_seeds]
+    for seed, _ in pairs:
+        _check_seed(seed)
+    steps = [first for _, first in pairs]
+    if not all(is_integer(first) for first in steps) or steps[:1] != [0] or steps[-1] >= n_steps or _falls(steps):
+        raise ImpossibleDemonstration(
+            f"the steps of slip_seeds must begin with 0 and rise, each below the {n_steps} that were taken.",
+            field="slip_seeds",
+        )
+    return tuple((seed, int(first)) for seed, first in pairs)
+
+
+def _check_seed(seed: object) -> None:
+    try:
+        identifier("none" if seed == "" else seed)
+    except Refused as refused:
+        raise ImpossibleDemonstration(f"a seed of slip_seeds {refused}.", field="slip_seeds") from None
+
+
+def _falls(steps: list[int]) -> bool:
+    return any(later <= earlier for earlier, later in itertools.pairwise(steps))
+
+
 def _check_actions(world: World, actions: Sequence[int]) -> list[int]:
     if isinstance(actions, np.ndarray):
         actions = actions.tolist()
@@ -276,15 +326,23 @@ def _settle_ending(world: World, claimed: str | None, *, at_goal: bool, n_steps:
     if claimed is None:
         return found
     for ending in ENDINGS:
-        # Who is out of steps has also given up, if that is what the client says.
-        if claimed == ending and (ending == found or (ending == "gave_up" and not at_goal)):
+        if claimed == ending and (ending == found or (not at_goal and _may_stop_by(ending, world))):
             return ending
     if claimed not in ENDINGS:
         raise ImpossibleDemonstration(
-            f'ending must be "goal", "gave_up" or "out_of_steps", not {shown(claimed)}.', field="ending"
+            f'ending must be "goal", "gave_up", "out_of_steps" or "out_of_time", not {shown(claimed)}.', field="ending"
+        )
+    if claimed == "out_of_time" and not at_goal:
+        raise ImpossibleDemonstration(
+            'the ending is said to be "out_of_time", but this world has no time limit.', field="ending"
         )
     raise ImpossibleDemonstration(
         f'the ending is said to be "{claimed}", but after {n_steps} of at most {world.horizon} steps the agent is'
         f" {'at' if at_goal else 'not at'} a goal.",
         field="ending",
     )
+
+
+def _may_stop_by(ending: Ending, world: World) -> bool:
+    """How an attempt may end anywhere but at a goal: who is out of steps may have given up, or be out of time, too."""
+    return ending == "gave_up" or (ending == "out_of_time" and world.time_limit_s is not None)

@@ -24,10 +24,12 @@ RED_BELOW: Final = -1.0
 """Red squares pay U[−7, −1], blue ones U[−1, 0]: less than −1 is red."""
 
 DemonstrationOutcome: TypeAlias = Literal["success", "failure"]
-Ending: TypeAlias = Literal["goal", "gave_up", "out_of_steps"]
+Ending: TypeAlias = Literal["goal", "gave_up", "out_of_steps", "out_of_time"]
+SlipSeeds: TypeAlias = tuple[tuple[str, int], ...]
+"""Which seed decides the slips from which step on: the first from step 0, then rising."""
 Colour: TypeAlias = Literal["red", "blue", "goal", "wall"]
 OUTCOMES: Final[tuple[DemonstrationOutcome, ...]] = ("success", "failure")
-ENDINGS: Final[tuple[Ending, ...]] = ("goal", "gave_up", "out_of_steps")
+ENDINGS: Final[tuple[Ending, ...]] = ("goal", "gave_up", "out_of_steps", "out_of_time")
 
 
 @dataclass(frozen=True, eq=False)
@@ -220,7 +222,8 @@ class World:
 class Demonstration:
     """One attempt, as `simulate` found it: T steps through T + 1 states. Slips are in the states.
 
-    `outcome` is "success" if a goal was reached with a total of at least 0, else "failure".
+    `outcome` is "success" if a goal was reached with a total of at least 0, else "failure". `slip_seeds` say by which
+    seeds the slips were drawn; they are empty where chance was another (`demonstration_of`).
     """
 
     id: str
@@ -230,6 +233,7 @@ class Demonstration:
     total: float
     outcome: DemonstrationOutcome
     ending: Ending
+    slip_seeds: SlipSeeds = field(default=(), kw_only=True)
 
     def __post_init__(self) -> None:
         for array in (self.states, self.actions, self.rewards):
@@ -255,6 +259,7 @@ class Demonstration:
             "total": self.total,
             "outcome": self.outcome,
             "ending": self.ending,
+            "slip_seeds": [list(pair) for pair in self.slip_seeds],
         }
 
     def __eq__(self, other: object) -> bool:

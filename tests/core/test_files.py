@@ -56,8 +56,21 @@ def test_slips_are_those_of_the_demonstrations_id():
     one = simulate(world, [1, 1, 2, 2], attempt_id="attempt-1")
     text = write_demonstration_file(world, [one])
     assert read_demonstration_file(text.splitlines()).demonstrations == (one,)
+    record = json.loads(text.splitlines()[1])
+    del record["slip_seeds"]
+    assert read_demonstration_file(lines(world.to_json() | {"kind": "world"}, record)).demonstrations == (one,)
     with pytest.raises(InvalidFile, match=r"Line 2: states of demonstration 'attempt-2': played again it is another"):
-        read_demonstration_file(text.replace("attempt-1", "attempt-2").splitlines())
+        read_demonstration_file(lines(world.to_json() | {"kind": "world"}, record | {"id": "attempt-2"}))
+
+
+def test_an_attempt_that_went_on_from_another_slips_by_the_seeds_in_its_line():
+    world = generate_world(3, slip=0.5)
+    one = simulate(world, [1, 1, 2, 2], id="child", slip_seeds=[("parent", 0), ("child", 2)])
+    text = write_demonstration_file(world, [one])
+    assert '"slip_seeds": [["parent", 0], ["child", 2]]' in text
+    assert read_demonstration_file(text.splitlines()).demonstrations == (one,)
+    with pytest.raises(InvalidFile, match=r"Line 2: states of demonstration 'child': played again it is another"):
+        read_demonstration_file(text.replace('["child", 2]', '["other", 2]').splitlines())
 
 
 def test_lines_may_come_in_any_order_blank_ones_and_unknown_fields_included():
@@ -137,6 +150,15 @@ WRONG = [
     (claim(states=3), 2, "states", "another"),
     (claim(rewards=[-1, 5]), 2, "rewards", "another"),
     (claim(discarded="yes"), 2, "discarded", "true or false"),
+    (claim(ending="out_of_time"), 2, "ending", "at a goal"),
+    (claim(slip_seeds="good"), 2, "slip_seeds", "list of pairs"),
+    (claim(slip_seeds=0), 2, "slip_seeds", "list of pairs"),
+    (claim(slip_seeds=[["good", 0, 1]]), 2, "slip_seeds", "list of pairs"),
+    (claim(slip_seeds=[["good", 1]]), 2, "slip_seeds", "must begin with 0"),
+    (claim(slip_seeds=[["a", 0], ["b", 2]]), 2, "slip_seeds", "below the 2"),
+    (claim(slip_seeds=[["a", 0], ["b", 0]]), 2, "slip_seeds", "rise"),
+    (claim(slip_seeds=[["a", 0.0]]), 2, "slip_seeds", "begin with 0"),
+    (claim(slip_seeds=[[5, 0]]), 2, "slip_seeds", "a text"),
     (lines(WORLD, GOOD, {**RANKING, "order": [["bad"]]}), 3, "order", "'bad' is no success"),
     (lines(WORLD, GOOD, BAD, {**RANKING, "order": [["bad"]]}), 4, "order", "'bad' is no success"),
     (lines(WORLD, GOOD, {**RANKING, "order": [["good"], ["good"]]}), 3, "order", "twice"),
@@ -198,7 +220,10 @@ def test_any_world_field_is_read_or_refused(field, value):
 
 
 @given(
-    field=st.sampled_from(["id", "actions", "ending", "states", "rewards", "total", "outcome", "world_id"]), value=JSON
+    field=st.sampled_from(
+        ["id", "actions", "ending", "slip_seeds", "states", "rewards", "total", "outcome", "world_id"]
+    ),
+    value=JSON,
 )
 @hypothesis_settings(max_examples=120)
 def test_any_demonstration_field_is_read_or_refused(field, value):

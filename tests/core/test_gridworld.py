@@ -149,6 +149,65 @@ def test_how_an_attempt_ends(actions, ending, outcome, found):
     assert (one.outcome, one.ending) == (outcome, found)
 
 
+@pytest.mark.parametrize("n_steps", [1, 7, 8])
+def test_who_runs_out_of_time_has_failed_if_the_world_has_a_time_limit(n_steps):
+    rewards = np.array([[0.0, -3.0], [-1.0, 1.0]])
+    limited = World(2, 2, rewards, 0, (3,), time_limit_s=60)
+    one = simulate(limited, [LEFT] * n_steps, ending="out_of_time")
+    assert (one.outcome, one.ending) == ("failure", "out_of_time")
+    assert simulate(limited, [LEFT] * n_steps).ending in {"gave_up", "out_of_steps"}
+    with pytest.raises(ImpossibleDemonstration, match="no time limit"):
+        simulate(World(2, 2, rewards, 0, (3,)), [LEFT] * n_steps, ending="out_of_time")
+    with pytest.raises(ImpossibleDemonstration, match="at a goal"):
+        simulate(limited, [DOWN, RIGHT], ending="out_of_time")
+
+
+def test_the_total_is_the_exact_sum_rounded_once():
+    ulp = 2.0**-52
+    cost = -0.75 * ulp
+    world = World(2, 4, np.array([[0, -1, cost, cost], [0, 1 + 3 * ulp, cost, cost]]), 0, (5,))
+    one = simulate(world, [RIGHT, RIGHT, RIGHT, DOWN, LEFT, LEFT], attempt_id="a")
+    assert sum(one.rewards.tolist()) < 0.0
+    assert (one.total, one.outcome) == (0.0, "success")
+
+
+def test_copied_steps_slip_as_they_did_and_the_others_by_the_attempts_own_id():
+    world = generate_world(2, slip=0.6)
+    actions = [UP, RIGHT, UP, DOWN, LEFT, UP, UP]
+    seeds = [("grandparent", 0), ("parent", 2), ("child", 5)]
+    one = simulate(world, actions, id="child", slip_seeds=seeds)
+    assert one.slip_seeds == tuple(seeds)
+    assert one.states.tolist()[:3] == simulate(world, actions[:2], attempt_id="grandparent").states.tolist()
+    for t, intended in enumerate(actions):
+        seed = "grandparent" if t < 2 else "parent" if t < 5 else "child"
+        direction = naive.slipped(seed, t, intended, world.slip)
+        assert one.states[t + 1] == naive.step(world, int(one.states[t]), direction)
+    assert simulate(world, actions, attempt_id="a").slip_seeds == (("a", 0),)
+
+
+@pytest.mark.parametrize(
+    ("seeds", "said"),
+    [
+        ([], "begin with 0"),
+        ([("a", 1)], "begin with 0"),
+        ([("a", 0), ("b", 2), ("c", 1)], "rise"),
+        ([("a", 0), ("b", 3)], "below the 3"),
+        ([("a", 0), ("b", True)], "rise"),
+        ([("a", 0.0)], "begin with 0"),
+        ([("\ud800", 0)], "a text"),
+        ([(7, 0)], "a text"),
+        (["a"], "list of pairs"),
+        ("a0", "list of pairs"),
+        ({"a": 0}, "list of pairs"),
+        (7, "list of pairs"),
+    ],
+)
+def test_slip_seeds_that_decide_no_step_or_twice_are_refused(seeds, said):
+    with pytest.raises(ImpossibleDemonstration, match=said) as refusal:
+        simulate(make_world(2, 2, slip=0.2), [LEFT] * 3, slip_seeds=seeds)
+    assert refusal.value.field == "slip_seeds"
+
+
 WRONG_ACTIONS = [
     ([], "at least one step", None),
     ([4], "0 up, 1 right, 2 down or 3 left, not 4", 0),
