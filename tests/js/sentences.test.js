@@ -1,6 +1,8 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import { number, plural, signed } from "#js/lib/format.js";
+import { clockJumpSentence } from "#js/worlds/attention.js";
+import { clock } from "#js/worlds/scoreboard.js";
 import { canRank, finishSentence, missingSentence } from "#js/worlds/sentences.js";
 
 test("numbers carry a true minus, and zero has no sign", () => {
@@ -28,11 +30,31 @@ test("a failure is counted with the same warmth as a success", () => {
 });
 
 test("the sentence says how a failure ended", () => {
-  const text = (ending) =>
-    finishSentence({ outcome: "failure", ending, total: -3.1, nSteps: 98, nSame: 1, nWanted: 3 }).text;
-  assert.match(text("goal"), /cost more than the goal gave/);
-  assert.match(text("gave_up"), /stopped after 98 steps/);
-  assert.match(text("out_of_steps"), /All 98 steps/);
+  const text = (ending, total = -3.1) =>
+    finishSentence({ outcome: "failure", ending, total, nSteps: 98, nSame: 1, nWanted: 3 }).text;
+  assert.equal(text("goal"), "You reached the goal, but the way cost more than the goal gave: \u22123.1.");
+  assert.equal(text("gave_up"), "You stopped after 98 steps, at \u22123.1.");
+  assert.equal(text("out_of_steps"), "All 98 steps are used up, at \u22123.1.");
+  assert.equal(text("out_of_time"), "The time is up after 98 steps, at \u22123.1.");
+});
+
+test("where totals are not shown, no sentence tells one", () => {
+  for (const ending of ["goal", "gave_up", "out_of_steps", "out_of_time"]) {
+    for (const outcome of ["success", "failure"]) {
+      const { title, text } = finishSentence({ outcome, ending, total: null, nSteps: 98, nSame: 1, nWanted: 3 });
+      assert.doesNotMatch(title + text, /null|[+\u2212]|\d\.\d/);
+    }
+  }
+});
+
+test("a jump of the clock is told in its own size", () => {
+  assert.match(clockJumpSentence(3_000), /ahead by 3 seconds/);
+  assert.match(clockJumpSentence(600_000), /ahead by 10 minutes/);
+  assert.match(clockJumpSentence(-86_400_000), /set back by 24 hours/);
+});
+
+test("time left reads as minutes and seconds", () => {
+  assert.deepEqual([90, 60, 9, 0].map(clock), ["1:30", "1:00", "0:09", "0:00"]);
 });
 
 test("what is missing is said, and ranking opens with one of each", () => {

@@ -32,8 +32,10 @@ export class Recorder {
   /** @type {Notes} */
   #notes;
   #begunAt;
-  #lead = 0;
+  #lead;
+  /** @type {() => number} */
   #now;
+  /** @type {() => number} */
   #wall;
 
   /**

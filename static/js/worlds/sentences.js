@@ -2,7 +2,15 @@
 
 import { plural, signed } from "#js/lib/format.js";
 
-/** @typedef {{outcome: string, ending: string | null, total: number, nSteps: number, nSame: number, nWanted: number}} Finish */
+/**
+ * @typedef {object} Finish
+ * @property {string} outcome
+ * @property {string | null} ending
+ * @property {number | null} total     null where totals are not shown
+ * @property {number} nSteps
+ * @property {number} nSame            attempts of this outcome, this one included
+ * @property {number} nWanted
+ */
 
 /** @param {Finish} finish @returns {{title: string, text: string}} */
 export function finishSentence({ outcome, ending, total, nSteps, nSame, nWanted }) {
@@ -10,17 +18,22 @@ export function finishSentence({ outcome, ending, total, nSteps, nSame, nWanted 
   if (outcome === "success") {
     return {
       title: `A success: ${count}`,
-      text: `You reached the goal with ${signed(total)} in ${plural(nSteps, "step")}.`,
+      text: `You reached the goal${total === null ? "" : ` with ${signed(total)}`} in ${plural(nSteps, "step")}.`,
     };
   }
   return { title: `A useful failure: ${count}`, text: failureText({ ending, total, nSteps }) };
 }
 
-/** @param {{ending: string | null, total: number, nSteps: number}} finish */
+/** @param {Pick<Finish, "ending" | "total" | "nSteps">} finish */
 function failureText({ ending, total, nSteps }) {
-  if (ending === "goal") return `You reached the goal, but the way cost more than the goal gave: ${signed(total)}.`;
-  if (ending === "gave_up") return `You stopped after ${plural(nSteps, "step")}, at ${signed(total)}.`;
-  return `All ${nSteps} steps are used up, at ${signed(total)}.`;
+  const at = total === null ? "" : `, at ${signed(total)}`;
+  if (ending === "goal") {
+    const cost = "You reached the goal, but the way cost more than the goal gave";
+    return total === null ? `${cost}.` : `${cost}: ${signed(total)}.`;
+  }
+  if (ending === "gave_up") return `You stopped after ${plural(nSteps, "step")}${at}.`;
+  if (ending === "out_of_time") return `The time is up after ${plural(nSteps, "step")}${at}.`;
+  return `All ${nSteps} steps are used up${at}.`;
 }
 
 /** What is still missing before ranking and learning make sense. @param {{nSuccesses: number, nFailures: number, nWanted: number}} counts */

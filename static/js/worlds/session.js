@@ -78,7 +78,6 @@ export class PlaySession {
   move(action, { when, device, paintedAt = Number.NaN }) {
     if (this.isOver || this.#endIfOutOfTime(when)) return null;
     const before = this.state;
-    this.#recorder.checkClock(when);
     this.#attempt = step(this.#world, this.#attempt, action, this.#since(when));
     this.#recorder.step({ when, device, paintedAt });
     const reached = this.state;
