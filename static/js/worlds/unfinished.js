@@ -1,0 +1,195 @@
+/**
+ * Attempts being played, kept in this browser after every step, so that neither a reload nor a crash costs more than the
+ * last one. Each tab holds the attempt it plays; what nobody holds was left and is offered again. What is kept but
+ * cannot be read is set aside, never thrown away.
+ */
+
+import { Belongings } from "#js/lib/locks.js";
+import { ask, browserStorage } from "#js/lib/storage.js";
+
+/** @typedef {import("#js/worlds/session.js").Draft} Draft */
+
+/**
+ * @typedef {object} Drafts   where they are kept
+ * @property {(draft: Draft & {isSetAside?: boolean}) => Promise<unknown>} put
+ * @property {(id: string) => Promise<unknown>} delete
+ * @property {() => Promise<any[]>} all   whatever is there
+ */
+
+/** After a reload the old page may hold its attempt for a moment longer. */
+const RELOAD_MS = 1000;
+const OLD_KEY = "irlfr:attempt:";
+const MINE_KEY = "irlfr:mine";
+
+export class Unfinished {
+  #worldId;
+  #drafts;
+  #belongings;
+  /** @type {Map<string, Draft | null>} what is to be written; null: deleted */
+  #toWrite = new Map();
+  /** @type {Promise<void> | null} */
+  #writing = null;
+  #lasts = true;
+
+  /** @param {{id: string}} world @param {{drafts?: Drafts, belongings?: Pick<Belongings, "has" | "take" | "giveBack" | "ofOthers">}} [parts] */
+  constructor(world, { drafts = storedDrafts(browserStorage), belongings = new Belongings() } = {}) {
+    this.#worldId = world.id;
+    this.#drafts = drafts;
+    this.#belongings = belongings;
+  }
+
+  /** Ready at once: the storage opens meanwhile. @param {{id: string}} world */
+  static async open(world) {
+    return new Unfinished(world);
+  }
+
+  /** False when the last step could not be kept: the storage is closed or full. */
+  get lasts() {
+    return this.#lasts;
+  }
+
+  /** After every step and every step back. Steps that come while one is being written are written together. @param {Draft} draft */
+  keep(draft) {
+    if (!this.#belongings.has(nameOf(draft.id))) this.#own(draft.id);
+    this.#later(draft.id, draft);
+  }
+
+  /** It is finished, or thrown away. @param {string} id */
+  drop(id) {
+    this.#later(id, null).then(() => this.#belongings.giveBack(nameOf(id)));
+  }
+
+  /**
+   * Make a draft that was left this tab's own; false when another tab was quicker. Resolves before anything is drawn
+   * from it, so that two tabs never go on with the same attempt.
+   * @param {string} id
+   */
+  async take(id) {
+    const isOurs = await this.#belongings.take(nameOf(id));
+    if (isOurs) remember(id);
+    return isOurs;
+  }
+
+  /** Attempts in this world that nobody plays any more: first this tab's own, then the newest. @returns {Promise<{drafts: Draft[], nDamaged: number}>} */
+  async left() {
+    await this.#takeOver();
+    const all = (await this.#drafts.all().catch(() => [])).filter((one) => !one.isSetAside);
+    const ours = all.filter(({ worldId }) => worldId === this.#worldId || typeof worldId !== "string");
+    const damaged = ours.filter((one) => !isSound(one));
+    for (const one of damaged) await this.#drafts.put({ ...one, isSetAside: true }).catch(() => {});
+    const drafts = await this.#free(ours.filter(isSound));
+    return { drafts, nDamaged: damaged.length };
+  }
+
+  /** @param {Draft[]} drafts @returns {Promise<Draft[]>} */
+  async #free(drafts) {
+    if (drafts.length === 0) return [];
+    const mine = drafts.find(({ id }) => id === remembered())?.id;
+    if (mine !== undefined && !this.#belongings.has(nameOf(mine))) await this.#waitFor(mine);
+    const taken = await this.#belongings.ofOthers();
+    return drafts
+      .filter(({ id }) => !taken.has(nameOf(id)) && !this.#belongings.has(nameOf(id)))
+      .sort((a, b) => Number(b.id === mine) - Number(a.id === mine) || b.savedAt - a.savedAt);
+  }
+
+  /** @param {string} id */
+  async #waitFor(id) {
+    if (await this.#belongings.take(nameOf(id), RELOAD_MS)) this.#belongings.giveBack(nameOf(id));
+  }
+
+  /** @param {string} id */
+  #own(id) {
+    void this.#belongings.take(nameOf(id));
+    remember(id);
+  }
+
+  /** @param {string} id @param {Draft | null} draft */
+  #later(id, draft) {
+    this.#toWrite.set(id, draft);
+    this.#writing ??= this.#write().finally(() => {
+      this.#writing = null;
+    });
+    return this.#writing;
+  }
+
+  async #write() {
+    for (const [id, draft] of this.#toWrite) {
+      this.#toWrite.delete(id);
+      try {
+        await (draft === null ? this.#drafts.delete(id) : this.#drafts.put(draft));
+        this.#lasts = true;
+      } catch {
+        this.#lasts = false;
+      }
+    }
+  }
+
+  /** The one attempt a world that version 0.2 kept. */
+  async #takeOver() {
+    const key = OLD_KEY + this.#worldId;
+    try {
+      const text = localStorage.getItem(key);
+      if (text === null) return;
+      await this.#drafts.put(oldDraft(text, this.#worldId));
+      localStorage.removeItem(key);
+    } catch {
+      // No storage, or a full one: it stays where it is.
+    }
+  }
+}
+
+/** @param {import("#js/lib/storage.js").Storage} storage @returns {Drafts} */
+function storedDrafts(storage) {
+  return {
+    put: (draft) => storage.run(["unfinished"], "readwrite", (store) => void store("unfinished").put(draft), "relaxed"),
+    delete: (id) => storage.run(["unfinished"], "readwrite", (store) => void store("unfinished").delete(id), "relaxed"),
+    all: () => storage.run(["unfinished"], "readonly", (store) => ask(store("unfinished").getAll())),
+  };
+}
+
+/** @param {string} text @param {string} worldId @returns {any} */
+function oldDraft(text, worldId) {
+  const savedAt = Date.now();
+  try {
+    const { id, actions, stepMs } = JSON.parse(text);
+    if (typeof id !== "string") throw new TypeError("An attempt has an id.");
+    return { id, worldId, actions, stepMs, slipSeeds: [[id, 0]], parentId: null, parentStep: 0, record: {}, savedAt };
+  } catch {
+    return { id: `damaged:${worldId}:${savedAt}`, worldId, text, savedAt };
+  }
+}
+
+/** Whether it can be walked again. @param {any} draft */
+function isSound({ actions, stepMs, slipSeeds, parentId, parentStep, savedAt }) {
+  const isWalk =
+    Array.isArray(actions) && actions.length > 0 && actions.every((action) => [0, 1, 2, 3].includes(action));
+  const isTimed = Array.isArray(stepMs) && stepMs.length === actions?.length && stepMs.every((ms) => ms >= 0);
+  const isSeeded =
+    Array.isArray(slipSeeds) &&
+    slipSeeds.length > 0 &&
+    slipSeeds.every((pair) => typeof pair?.[0] === "string" && Number.isInteger(pair?.[1]));
+  const isChild = parentId === null ? parentStep === 0 : typeof parentId === "string" && parentStep > 0;
+  return isWalk && isTimed && isSeeded && isChild && parentStep <= actions.length && Number.isFinite(savedAt);
+}
+
+/** @param {string} id */
+function nameOf(id) {
+  return `irlfr:attempt:${id}`;
+}
+
+/** Which attempt this tab plays, across reloads. @param {string} id */
+function remember(id) {
+  try {
+    sessionStorage.setItem(MINE_KEY, id);
+  } catch {
+    // Then the newest is offered first.
+  }
+}
+
+function remembered() {
+  try {
+    return sessionStorage.getItem(MINE_KEY);
+  } catch {
+    return null;
+  }
+}
