@@ -3,20 +3,20 @@
  * assigned is painted in the next animation frame. It fills the box the page gives it, with whole device pixels a square.
  */
 
+import { Agents } from "#js/board/agents.js";
+import { make } from "#js/board/dom.js";
+import { Effects } from "#js/board/effects.js";
 import { drawInk } from "#js/board/ink.js";
 import { drawSquares, lookOf } from "#js/board/render.js";
-import { DELTAS, EMPTY_VIEW, placeOf } from "#js/board/state.js";
+import { EMPTY_VIEW } from "#js/board/state.js";
 import { figureTags } from "#js/board/tags.js";
 import { onThemeChange, theme } from "#js/board/theme.js";
 import { isTaken } from "#js/lib/keys.js";
 
 /** @typedef {import("#js/board/state.js").World} World */
 /** @typedef {import("#js/board/state.js").View} View */
-/** @typedef {import("#js/board/state.js").Agent} Agent */
 
-const SVG = "http://www.w3.org/2000/svg";
 const SMALLEST_WHOLE_CELL = 4;
-const SMALL_CELL = 28;
 
 export class IrlBoard extends HTMLElement {
   #life = new AbortController();
@@ -35,18 +35,23 @@ export class IrlBoard extends HTMLElement {
   #stage = make("div", "board-stage");
   #squares = /** @type {HTMLCanvasElement} */ (make("canvas", "board-squares"));
   #ink = /** @type {HTMLCanvasElement} */ (make("canvas", "board-ink"));
-  #agents = make("div", "board-agents");
+  #agents = new Agents(make("div", "board-agents"));
+  #effects = new Effects();
   #tags = make("div", "board-tags");
   /** @type {number | null} the square under the pointer */
   #pointed = null;
+  /** @type {number | null} */
+  #cursor = null;
+  #paintedAt = Number.NaN;
 
   connectedCallback() {
     this.#life = new AbortController();
     const { signal } = this.#life;
     this.#adopt("world");
     this.#adopt("view");
+    this.#adopt("cursor");
     if (!this.#stage.isConnected) {
-      this.#stage.append(this.#squares, this.#ink, this.#agents, this.#tags);
+      this.#stage.append(this.#squares, this.#ink, this.#agents.layer, this.#tags, this.#effects.layer);
       this.#stage.setAttribute("aria-hidden", "true");
       // A clone of a board brings a copy of the other's stage along, empty as cloned canvases are.
       this.querySelector(".board-stage")?.remove();
@@ -80,7 +85,9 @@ export class IrlBoard extends HTMLElement {
   set world(world) {
     this.#world = world;
     if (world) this.style.setProperty("--board-ratio", `${world.cols} / ${world.rows}`);
+    this.cursor = null;
     this.#resize();
+    this.#paintedAt = Number.NaN;
     this.#redrawAll();
   }
 
@@ -98,7 +105,26 @@ export class IrlBoard extends HTMLElement {
     if (this.#squaresAreOld || before.numbers !== after.numbers || before.arrows !== after.arrows)
       this.#inkIsOld = true;
     if (before.visits !== after.visits || before.paths !== after.paths) this.#inkIsOld = true;
+    this.#paintedAt = Number.NaN;
     this.#schedule();
+  }
+
+  /**
+   * When the present view was painted: the time of that animation frame (ms, the clock of `event.timeStamp`); NaN while
+   * it waits for one.
+   */
+  get paintedAt() {
+    return this.#paintedAt;
+  }
+
+  /** The square that somebody looking around has reached, or null. @returns {number | null} */
+  get cursor() {
+    return this.#cursor;
+  }
+
+  set cursor(state) {
+    this.#cursor = state;
+    if (this.#world) this.#effects.pointAt(this.#world, state);
   }
 
   get label() {
@@ -121,50 +147,31 @@ export class IrlBoard extends HTMLElement {
 
   /** The first agent leans against an edge or a wall and comes back. @param {number} direction 0…3 */
   bump(direction) {
-    const token = this.#agents.firstElementChild?.firstElementChild;
-    if (!token || prefersStill()) return;
-    const [dy, dx] = DELTAS[direction] ?? [0, 0];
-    const lean = `translate(${dx * 22}%, ${dy * 22}%)`;
-    token.animate([{ transform: "none" }, { transform: lean }, { transform: "none" }], {
-      duration: 140,
-      easing: "ease-out",
-    });
-  }
-
-  /** The first agent hops: quiet joy. */
-  hop() {
-    const token = this.#agents.firstElementChild?.firstElementChild;
-    if (!token || prefersStill()) return;
-    const frames = [{ transform: "none" }, { transform: "translateY(-26%) scale(1.06)" }, { transform: "none" }];
-    token.animate(frames, { duration: 200, iterations: 2, easing: "ease-out" });
+    const state = this.#view.agents[0]?.state;
+    if (!this.#world || state === undefined) return;
+    this.#agents.lean(direction);
+    this.#effects.bump(this.#world, state, direction);
   }
 
   /** Let a short text rise from a square and fade (a cost, a reward). @param {number} state @param {string} text @param {"gain" | "loss"} kind */
   float(state, text, kind) {
-    if (!this.#world) return;
-    const [row, col] = placeOf(this.#world, state);
-    this.#stage.querySelector(".board-float")?.remove();
-    const note = make("span", `board-float board-float--${kind}`);
-    note.textContent = text;
-    note.style.left = `${(col + 0.5) * this.#cell}px`;
-    // Above the square, not over a small agent; in the first row a little lower, so that it stays on the board.
-    const shift = this.#cell < SMALL_CELL ? -SMALL_CELL / 2 : row === 0 ? this.#cell * 0.3 : 0;
-    note.style.top = `${row * this.#cell + shift}px`;
-    this.#stage.append(note);
-    const rise = prefersStill() ? 0 : -this.#cell * 0.35;
-    const frames = [
-      { opacity: 0, transform: "translate(-50%, -20%)" },
-      { opacity: 1, transform: `translate(-50%, calc(-50% + ${rise / 2}px))`, offset: 0.2 },
-      { opacity: 1, transform: `translate(-50%, calc(-50% + ${rise * 0.8}px))`, offset: 0.7 },
-      { opacity: 0, transform: `translate(-50%, calc(-50% + ${rise}px))` },
-    ];
-    note.animate(frames, { duration: 750, easing: "ease-out" }).finished.then(
-      () => note.remove(),
-      () => note.remove(),
-    );
+    if (this.#world) this.#effects.float(this.#world, state, text, kind);
   }
 
-  /** What was assigned before the browser knew this element hides the accessor: assign it again. @param {"world" | "view"} name */
+  /** Quiet joy around a square, for less than a second. @param {number} state */
+  celebrate(state) {
+    if (!this.#world) return;
+    this.#agents.hop();
+    this.#effects.celebrate(this.#world, state);
+  }
+
+  /** The older name of a celebration where the first agent stands. */
+  hop() {
+    const state = this.#view.agents[0]?.state;
+    if (state !== undefined) this.celebrate(state);
+  }
+
+  /** What was assigned before the browser knew this element hides the accessor: assign it again. @param {"world" | "view" | "cursor"} name */
   #adopt(name) {
     if (!Object.hasOwn(this, name)) return;
     const value = /** @type {any} */ (this)[name];
@@ -180,13 +187,14 @@ export class IrlBoard extends HTMLElement {
 
   #schedule() {
     if (this.#frame || !this.isConnected) return;
-    this.#frame = requestAnimationFrame(() => {
+    this.#frame = requestAnimationFrame((time) => {
       this.#frame = 0;
-      this.#paint();
+      this.#paint(time);
     });
   }
 
-  #paint() {
+  /** @param {number} time of this animation frame */
+  #paint(time) {
     const world = this.#world;
     if (!world || this.#cell === 0) return;
     const palette = theme();
@@ -200,8 +208,9 @@ export class IrlBoard extends HTMLElement {
       drawInk(this.#scene(this.#ink, world, view, this.#look));
       this.#inkIsOld = false;
     }
-    this.#placeAgents(world, view.agents);
+    this.#agents.place(world, view.agents, this.#cell);
     this.#placeTags(world, view);
+    if (Number.isNaN(this.#paintedAt)) this.#paintedAt = time;
   }
 
   /** @param {HTMLCanvasElement} canvas @param {World} world @param {View} view @param {import("#js/board/render.js").Look} look */
@@ -238,21 +247,7 @@ export class IrlBoard extends HTMLElement {
     // Setting a canvas' size wipes it: paint before the browser shows the empty one.
     this.#squaresAreOld = true;
     this.#inkIsOld = true;
-    if (this.isConnected) this.#paint();
-  }
-
-  /** @param {World} world @param {Agent[]} agents */
-  #placeAgents(world, agents) {
-    while (this.#agents.children.length > agents.length) this.#agents.lastElementChild?.remove();
-    while (this.#agents.children.length < agents.length) this.#agents.append(makeAgent());
-    agents.forEach((agent, i) => {
-      const token = /** @type {HTMLElement} */ (this.#agents.children[i]);
-      const [row, col] = placeOf(world, agent.state);
-      token.style.transform = `translate(${col * this.#cell}px, ${row * this.#cell}px)`;
-      token.dataset.who = agent.who;
-      token.dataset.state = String(agent.state);
-      token.dataset.facing = String(agent.facing ?? "");
-    });
+    if (this.isConnected) this.#paint(Number(document.timeline.currentTime));
   }
 
   /** @param {World} world @param {View} view */
@@ -299,44 +294,6 @@ export class IrlBoard extends HTMLElement {
     };
     query.addEventListener("change", onChange, { once: true, signal });
   }
-}
-
-/** @param {string} tag @param {string} className */
-function make(tag, className) {
-  const element = document.createElement(tag);
-  element.className = className;
-  return element;
-}
-
-/** A round token with two eyes; the stylesheet turns the eyes where `data-facing` says. */
-function makeAgent() {
-  const place = make("div", "agent");
-  const token = document.createElementNS(SVG, "svg");
-  token.setAttribute("viewBox", "-10 -10 20 20");
-  token.setAttribute("class", "agent-token");
-  token.append(circle("agent-body", 0, 0, 8));
-  const eyes = document.createElementNS(SVG, "g");
-  eyes.setAttribute("class", "agent-eyes");
-  eyes.append(circle("agent-white", -2.9, -0.6, 2.5), circle("agent-white", 2.9, -0.6, 2.5));
-  const pupils = document.createElementNS(SVG, "g");
-  pupils.setAttribute("class", "agent-pupils");
-  pupils.append(circle("agent-pupil", -2.9, -0.6, 1.25), circle("agent-pupil", 2.9, -0.6, 1.25));
-  eyes.append(pupils);
-  token.append(eyes);
-  place.append(token);
-  return place;
-}
-
-/** @param {string} className @param {number} x @param {number} y @param {number} r */
-function circle(className, x, y, r) {
-  const shape = document.createElementNS(SVG, "circle");
-  for (const [name, value] of Object.entries({ class: className, cx: x, cy: y, r }))
-    shape.setAttribute(name, String(value));
-  return shape;
-}
-
-function prefersStill() {
-  return matchMedia("(prefers-reduced-motion: reduce)").matches;
 }
 
 customElements.define("irl-board", IrlBoard);
