@@ -15,7 +15,7 @@ from sqlalchemy.exc import TimeoutError as PoolTimeout
 from starlette.exceptions import HTTPException
 from starlette.responses import HTMLResponse, Response
 
-from app.errors import AppError, Unavailable, Unprocessable, error_json
+from app.errors import AppError, ImpossibleWorld, Unavailable, Unprocessable, error_json
 from app.kit.writer import WriterIsBusy
 from irl_core import IrlError
 
@@ -32,6 +32,7 @@ class ErrorPage:
     status: int = field(metadata={"help": "The HTTP status."})
     title: str = field(metadata={"help": "Two or three words."})
     message: str = field(metadata={"help": "What was wrong and what would be right, in a sentence."})
+    mend_at: str | None = field(default=None, metadata={"help": "The page where what was wrong can be mended."})
     path: None = field(default=None, metadata={"help": "Nowhere on the path from Play to Compare."})
 
 
@@ -47,6 +48,7 @@ def add_error_handlers(app: FastAPI) -> None:
             message=error.message,
             fields=error.fields,
             headers=error.headers,
+            mend_at=error.mend_at if isinstance(error, ImpossibleWorld) else None,
         )
 
     @app.exception_handler(IrlError)
@@ -102,14 +104,14 @@ def answer(
     message: str,
     fields: Mapping[str, str],
     headers: Mapping[str, str] | None = None,
+    mend_at: str | None = None,
 ) -> Response:
     """One error, in the form in which the asker can read it."""
     if request.url.path.startswith(JSON_PATHS):
         body = error_json(code, message, fields)
         return Response(body, status, dict(headers or {}), media_type="application/json")
-    page = ErrorPage(
-        status=int(status), title=_TITLES.get(HTTPStatus(status), HTTPStatus(status).phrase), message=message
-    )
+    title = _TITLES.get(HTTPStatus(status), HTTPStatus(status).phrase)
+    page = ErrorPage(status=int(status), title=title, message=message, mend_at=mend_at)
     response = _render(request, page)
     response.headers.update(headers or {})
     return response

@@ -4,6 +4,7 @@
     ├── NotFound            404  nothing there, or nothing there for you
     ├── Conflict            409  the id is taken by other content, or the thing is past that point
     ├── Unprocessable       422  the request is well-formed but cannot be done; `fields` says where
+    │   └── ImpossibleWorld      an address asks for a world that cannot be; `mend_at` is where it can be mended
     ├── Forbidden           403  a request another site made in the visitor's name
     ├── TooLarge            413  the body is over the limit
     ├── NotJson             415  the body is not declared as JSON
@@ -51,6 +52,14 @@ class Unprocessable(AppError):
 
     status = 422
     code = "invalid"
+
+
+class ImpossibleWorld(Unprocessable):
+    """The world of an address cannot be."""
+
+    def __init__(self, message: str, *, fields: Mapping[str, str], mend_at: str) -> None:
+        super().__init__(message, fields=fields)
+        self.mend_at = mend_at
 
 
 class Forbidden(AppError):

@@ -26,6 +26,7 @@ from app.security import CrossSiteGuard, JsonBodies, SecurityHeaders, Unexpected
 from app.templating import Pages, find_folder
 from app.visitors import VisitorCookie
 from app.worlds import api as worlds_api
+from app.worlds import pages as worlds_pages
 
 API_ROUTERS: tuple[APIRouter, ...] = (
     worlds_api.router,
@@ -35,6 +36,7 @@ API_ROUTERS: tuple[APIRouter, ...] = (
     comparisons_api.router,
 )
 PAGE_ROUTERS: tuple[APIRouter, ...] = (
+    worlds_pages.router,  # first: /worlds/new is no /worlds/{world_id}
     demonstrations_pages.router,
     rankings_pages.router,
     learning_pages.router,

@@ -1,9 +1,9 @@
 """The play page: the front door, and a world by its link."""
 
 from dataclasses import dataclass, field
-from typing import Annotated, Any
+from typing import Any
 
-from fastapi import APIRouter, Query, Request
+from fastapi import APIRouter, Request
 from starlette.responses import RedirectResponse, Response
 
 from app.demonstrations import queries
@@ -11,10 +11,10 @@ from app.demonstrations.schemas import DemonstrationOut
 from app.dependencies import DatabaseFromApp
 from app.pages import PathState, latest_world_id, path_state, render
 from app.visitors import VisitorOrNone
-from app.worlds.convert import StoredWorld, generate
-from app.worlds.dependencies import WorldFromPath
+from app.worlds.convert import StoredWorld
+from app.worlds.dependencies import QueryFromAddress, WorldFromPath
 from app.worlds.queries import find_world
-from app.worlds.schemas import WorldQuery
+from app.worlds.service import imagine
 
 router = APIRouter(include_in_schema=False)
 
@@ -31,7 +31,7 @@ class PlayPage:
 
 @router.get("/", response_model=None)
 def show_front_door(
-    request: Request, query: Annotated[WorldQuery, Query()], database: DatabaseFromApp, visitor_id: VisitorOrNone
+    request: Request, query: QueryFromAddress, database: DatabaseFromApp, visitor_id: VisitorOrNone
 ) -> Response:
     """Lead a known visitor to their latest world; give everybody else a board to play at once.
 
@@ -42,7 +42,7 @@ def show_front_door(
             latest = latest_world_id(session, visitor_id)
         if latest is not None:
             return RedirectResponse(f"/worlds/{latest}", 303)
-    return _play(request, database, visitor_id, generate(query.to_world_in()), is_front_door=True)
+    return _play(request, database, visitor_id, imagine(query), is_front_door=True)
 
 
 @router.get("/worlds/{world_id}", response_model=None)
@@ -66,5 +66,5 @@ def _play(
 
 
 def demonstrations_json(rows: Any) -> list[dict[str, Any]]:  # noqa: ANN401 - rows of demonstrations
-    """Demonstrations as the API lists them, for a page's data."""
-    return [DemonstrationOut.of(row).model_dump(mode="json") for row in rows]
+    """Demonstrations as the API lists them, for a page's data: without the records, which no page looks at."""
+    return [DemonstrationOut.of(row, with_record=False).model_dump(mode="json", exclude={"record"}) for row in rows]

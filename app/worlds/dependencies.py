@@ -10,6 +10,7 @@ from app.db import Database
 from app.dependencies import DatabaseFromApp
 from app.errors import NotFound
 from app.worlds import queries
+from app.worlds.address import WorldQuery, read_query
 from app.worlds.convert import StoredWorld
 
 MOST_KNOWN = 64
@@ -35,4 +36,10 @@ def _load(database: Database, world_id: str) -> StoredWorld:
     return world
 
 
+def get_query(request: Request) -> WorldQuery:
+    """Read what the address asks for."""
+    return read_query(request.url.query)
+
+
 WorldFromPath = Annotated[StoredWorld, Depends(get_world)]
+QueryFromAddress = Annotated[WorldQuery, Depends(get_query)]

@@ -9,5 +9,5 @@ from app.worlds.convert import StoredWorld, world_from_text
 
 def find_world(session: Session, world_id: str) -> StoredWorld | None:
     """Find a stored world by its id; read as text, so that a world read before is not parsed again."""
-    text = session.scalar(select(type_coerce(World.world, Text())).where(World.id == world_id))
-    return None if text is None else StoredWorld(world_id, world_from_text(text))
+    found = session.execute(select(type_coerce(World.world, Text()), World.spec).where(World.id == world_id)).first()
+    return None if found is None else StoredWorld(world_id, world_from_text(found[0]), found[1])

@@ -1,11 +1,23 @@
 """What crosses the wire about worlds."""
 
-from typing import Annotated
+from typing import Annotated, Any, Final
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, FailFast, Field, field_validator
+from pydantic import AfterValidator, BaseModel, ConfigDict, FailFast, Field
+from pydantic_core import PydanticCustomError
 
-LARGEST_SEED = 2**53 - 1
-"""The largest whole number that JavaScript and Python write alike."""
+SIDE: Final = (2, 100)
+SEED: Final = (0, 2**53 - 1)
+"""Up to the largest whole number that JavaScript and Python write alike."""
+RED_PROBABILITY: Final = (0.0, 1.0)
+SLIP: Final = (0.0, 0.9)
+SQUARE: Final = (0, SIDE[1] ** 2 - 1)
+REWARD: Final = (-7.0, 0.0)
+GOAL_REWARD: Final = (0.0, 200.0)
+STEP_LIMIT: Final = (1, 2 * SIDE[1] ** 2)
+TIME_LIMIT_S: Final = (5, 3600)
+MOST_GOALS: Final = 100
+MOST_WALLS: Final = SIDE[1] ** 2 - 2
+"""One square for the start and one for a goal stay open."""
 
 
 def _without_minus_zero(value: float) -> float:
@@ -13,11 +25,31 @@ def _without_minus_zero(value: float) -> float:
     return value + 0.0
 
 
-Probability = Annotated[float, Field(ge=0, le=1, strict=True, allow_inf_nan=False), AfterValidator(_without_minus_zero)]
-Slip = Annotated[float, Field(ge=0, le=0.9, strict=True, allow_inf_nan=False), AfterValidator(_without_minus_zero)]
-Size = Annotated[int, Field(ge=2, le=100, strict=True)]
-Seed = Annotated[int, Field(ge=0, le=LARGEST_SEED, strict=True)]
-Square = Annotated[int, Field(ge=0, lt=10_000, strict=True)]
+def _each_once(painted: list[tuple[int, float]]) -> list[tuple[int, float]]:
+    seen: set[int] = set()
+    for square, _ in painted:
+        if square in seen:
+            raise PydanticCustomError(
+                "painted_twice", "must name each square once; {square} is there twice", {"square": square}
+            )
+        seen.add(square)
+    return painted
+
+
+def _whole(bounds: tuple[int, int]) -> Any:  # noqa: ANN401 - what Annotated takes
+    return Field(ge=bounds[0], le=bounds[1], strict=True)
+
+
+def _real(bounds: tuple[float, float]) -> Any:  # noqa: ANN401 - as _whole
+    return Field(ge=bounds[0], le=bounds[1], strict=True, allow_inf_nan=False)
+
+
+Probability = Annotated[float, _real(RED_PROBABILITY), AfterValidator(_without_minus_zero)]
+Slip = Annotated[float, _real(SLIP), AfterValidator(_without_minus_zero)]
+Size = Annotated[int, _whole(SIDE)]
+Seed = Annotated[int, _whole(SEED)]
+Square = Annotated[int, _whole(SQUARE)]
+Reward = Annotated[float, _real((REWARD[0], GOAL_REWARD[1])), AfterValidator(_without_minus_zero)]
 
 
 class WorldIn(BaseModel):
@@ -36,37 +68,27 @@ class WorldIn(BaseModel):
     red_probability: Probability = Field(default=0.3, description="The probability that a square is red.")
     slip: Slip = Field(default=0.0, description="The probability that a step goes another way than intended.")
     walls: Annotated[list[Square], FailFast()] = Field(
-        default=[], max_length=9_998, description="Squares (row · cols + col) that cannot be entered."
+        default=[], max_length=MOST_WALLS, description="Squares (row · cols + col) that cannot be entered."
     )
-
-
-class WorldQuery(BaseModel):
-    """The same in the query of a page's address, where every number is text and an empty text is none."""
-
-    model_config = ConfigDict(extra="ignore", frozen=True)
-
-    rows: Annotated[int, Field(ge=2, le=100)] | None = None
-    cols: Annotated[int, Field(ge=2, le=100)] | None = None
-    seed: Annotated[int, Field(ge=0, le=LARGEST_SEED)] | None = None
-    red_probability: Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)] | None = None
-    slip: Annotated[float, Field(ge=0, le=0.9, allow_inf_nan=False)] | None = None
-    new: str | None = Field(default=None, description="Given in any form: a fresh world, please.")
-
-    @field_validator("rows", "cols", "seed", "red_probability", "slip", mode="before")
-    @classmethod
-    def _empty_is_none(cls, text: object) -> object:
-        return None if text == "" else text
-
-    @property
-    def asks_for_a_world(self) -> bool:
-        """Whether anything was asked for."""
-        return bool(self.model_dump(exclude_none=True))
-
-    def to_world_in(self) -> WorldIn:
-        """Return what the API would be asked; with one side given the world is square."""
-        told = self.model_dump(exclude_none=True, exclude={"new"})
-        sides = {"rows": self.rows or self.cols, "cols": self.cols or self.rows} if self.rows or self.cols else {}
-        return WorldIn(**(told | sides))
+    start: Square = Field(default=0, description="The square where every attempt begins.")
+    goals: list[Square] | None = Field(
+        default=None,
+        min_length=1,
+        max_length=MOST_GOALS,
+        description="Squares where an attempt ends; each pays rows + cols. Default: the last square.",
+    )
+    painted: Annotated[list[tuple[Square, Reward]], FailFast(), AfterValidator(_each_once)] = Field(
+        default=[],
+        max_length=SQUARE[1] + 1,
+        description="[[square, reward], …]: rewards of your own, −7 to 0, or 0 to 200 for a goal. Not for walls.",
+    )
+    step_limit: Annotated[int, _whole(STEP_LIMIT)] | None = Field(
+        default=None,
+        description="The most steps of an attempt, from the shortest way to twice the squares; becomes the horizon.",
+    )
+    time_limit_s: Annotated[int, _whole(TIME_LIMIT_S)] | None = Field(
+        default=None, description="The most seconds of an attempt, 5 to 3600. Default: none."
+    )
 
 
 class WorldOut(BaseModel):
@@ -76,7 +98,7 @@ class WorldOut(BaseModel):
     rows: int
     cols: int
     start: int = Field(description="The square where every attempt begins.")
-    goal: int = Field(description="The square where it ends.")
+    goal: int = Field(description="The first square where it ends.")
     goals: list[int] = Field(description="All squares where it ends.")
     walls: list[int] = Field(description="Squares that cannot be entered.")
     rewards: list[list[float]] = Field(description="rows × cols: the reward of reaching each square.")
@@ -85,4 +107,6 @@ class WorldOut(BaseModel):
     red_probability: float | None = Field(description="The probability with which each square was made red.")
     slip: float = Field(description="The probability that a step goes in one of the three other directions.")
     horizon: int = Field(description="The most steps an attempt may have, and the horizon of planning.")
+    time_limit_s: int | None = Field(description="The most seconds an attempt may last, or null.")
     success_possible: bool = Field(description="Whether any attempt can reach the goal with a total of 0 or more.")
+    spec: dict[str, Any] = Field(description="The smallest body of POST /worlds that makes this world again.")
