@@ -31,10 +31,17 @@ class Settings(BaseSettings):
         default=1, description="How many learning workers `irlfr serve` starts; 0 leaves them to `irlfr worker`."
     )
     max_body_bytes: Annotated[int, Field(ge=1024)] = Field(
-        default=1_000_000, description="The largest request body accepted, in bytes."
+        default=2_000_000,
+        description="The largest request body accepted, in bytes. The longest attempt with its record takes 1.3 million.",
     )
     write_queue_length: Annotated[int, Field(ge=1)] = Field(
         default=1000, description="How many writes may wait for the disk before the server answers 503."
+    )
+    show_totals: bool = Field(
+        default=True, description="Participants see the running total and what each attempt came to."
+    )
+    hold_to_move: bool = Field(
+        default=False, description="A key that is held goes on moving; otherwise each press is one step."
     )
     allow_missing_assets: bool = Field(
         default=False, description="Start without the browser's third-party packages (for tests of the API)."

@@ -39,7 +39,7 @@ def list_demonstrations(
 ) -> list[DemonstrationOut]:
     """List your attempts in this world, oldest first; discarded ones say so."""
     with database.read() as session:
-        return [DemonstrationOut.of(row) for row in queries.all_in_world(session, visitor_id, world.id)]
+        return [DemonstrationOut.of(row) for row in queries.all_with_records(session, visitor_id, world.id)]
 
 
 @router.put("/demonstrations/{demonstration_id}/discard", summary="Discard an attempt")

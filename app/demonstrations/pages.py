@@ -6,6 +6,7 @@ from typing import Any
 from fastapi import APIRouter, Request
 from starlette.responses import RedirectResponse, Response
 
+from app.config import Settings
 from app.demonstrations import queries
 from app.demonstrations.schemas import DemonstrationOut
 from app.dependencies import DatabaseFromApp
@@ -26,7 +27,7 @@ class PlayPage:
     path: PathState = field(metadata={"help": "How far this visitor has come in this world."})
     world: dict[str, Any] = field(metadata={"help": "The world being played, as the API has it."})
     is_front_door: bool = field(metadata={"help": "The page is `/`: it greets, and says in a line what this is."})
-    data: dict[str, Any] = field(metadata={"help": "The page data: world, saved, demonstrations."})
+    data: dict[str, Any] = field(metadata={"help": "The page data: world, saved, demonstrations, options."})
 
 
 @router.get("/", response_model=None)
@@ -60,9 +61,19 @@ def _play(
         is_saved = find_world(session, world.id) is not None
         demonstrations = demonstrations_json(queries.all_in_world(session, visitor_id, world.id))
         path = path_state(session, visitor_id, world.id, "play") if is_saved else PathState()
-    data: dict[str, Any] = {"world": world.to_json(), "saved": is_saved, "demonstrations": demonstrations}
+    data: dict[str, Any] = {
+        "world": world.to_json(),
+        "saved": is_saved,
+        "demonstrations": demonstrations,
+        "options": _options(request.app.state.settings),
+    }
     page = PlayPage(path=path, world=data["world"], is_front_door=is_front_door, data=data)
     return render(request, "worlds/play.html", page)
+
+
+def _options(settings: Settings) -> dict[str, bool]:
+    """What a study decides about playing."""
+    return {"show_totals": settings.show_totals, "hold_to_move": settings.hold_to_move}
 
 
 def demonstrations_json(rows: Any) -> list[dict[str, Any]]:  # noqa: ANN401 - rows of demonstrations

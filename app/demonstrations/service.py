@@ -1,7 +1,8 @@
 """What people can do with demonstrations: record one, discard it, take it back."""
 
-from typing import Any
+from typing import Any, NoReturn
 
+from anyio import to_thread
 from sqlalchemy.dialects.sqlite import insert
 from sqlalchemy.orm import Session
 
@@ -17,7 +18,7 @@ from app.worlds.convert import StoredWorld
 INSERT = insert(Demonstration.metadata.tables["demonstration"]).on_conflict_do_nothing(index_elements=["id"])
 """By Core, without the ORM: this is the path that many take at once."""
 
-TOLD = ("world_id", "actions", "step_ms", "ending")
+TOLD = ("world_id", "actions", "step_ms", "ending", "parent_id", "parent_step", "record")
 """What makes two tellings of an attempt the same; the rest follows from it."""
 
 
@@ -25,10 +26,11 @@ async def record(
     database: Database, visitor_id: str, world: StoredWorld, told: DemonstrationIn
 ) -> tuple[Demonstration, bool]:
     """Store an attempt once. Returns it and whether it is new; Conflict if the id tells another story."""
-    if len(told.step_ms) != len(told.actions):
-        message = f"step_ms has {len(told.step_ms)} times for {len(told.actions)} actions; each step needs one."
-        raise Unprocessable(message, fields={"step_ms": message})
-    columns = convert.simulated_columns(world, told) | {"visitor_id": visitor_id}
+    _check_lengths(told)
+    slip_seeds = (
+        await to_thread.run_sync(_seeds_from_parent, database, visitor_id, world, told) if told.parent_id else None
+    )
+    columns = convert.simulated_columns(world, told, slip_seeds=slip_seeds) | {"visitor_id": visitor_id}
 
     def store(session: Session) -> tuple[Demonstration, bool]:
         remember(session, visitor_id)
@@ -40,6 +42,41 @@ async def record(
         return known, False
 
     return await database.write_soon(store)
+
+
+def _check_lengths(told: DemonstrationIn) -> None:
+    """Check that there is one of everything for each step, and that a parent is named wholly or not at all."""
+    lists: dict[str, list[Any]] = {"step_ms": told.step_ms}
+    if told.record is not None:
+        lists |= {"record.rt": told.record.rt, "record.device": told.record.device}
+    for name, values in lists.items():
+        if len(values) != len(told.actions):
+            _refuse(name, f"{name} has {len(values)} entries for {len(told.actions)} actions; each step needs one.")
+    if (told.parent_id is None) != (told.parent_step is None):
+        missing = "parent_id" if told.parent_id is None else "parent_step"
+        _refuse(missing, "An attempt that goes on from another names both: parent_id and parent_step.")
+
+
+def _seeds_from_parent(
+    database: Database, visitor_id: str, world: StoredWorld, told: DemonstrationIn
+) -> list[tuple[str, int]]:
+    """Return by which seeds the steps slip: the copied ones as in the parent, then by the attempt's own id."""
+    parent_id, k = told.parent_id or "", told.parent_step or 0
+    with database.read() as session:
+        parent = queries.find_parent(session, visitor_id, world.id, parent_id)
+    if parent is None:
+        _refuse("parent_id", "You have no such attempt in this world, so none can go on from it.")
+    if k > len(parent.actions) or parent.states[k] in world.world.goals:
+        _refuse("parent_step", f"The attempt to go on from is over, or was never, after {k} steps.")
+    if told.actions[:k] != parent.actions[:k]:
+        _refuse("actions", f"The first {k} actions must be those of the attempt that this one goes on from.")
+    if len(told.actions) <= k:
+        _refuse("actions", f"After the {k} copied steps an attempt needs at least one of its own.")
+    return [(seed, first) for seed, first in parent.slip_seeds if first < k] + [(told.id, k)]
+
+
+def _refuse(name: str, message: str) -> NoReturn:
+    raise Unprocessable(message, fields={name: message})
 
 
 def _check_is_the_same(known: Demonstration, columns: dict[str, Any]) -> None:

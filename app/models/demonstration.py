@@ -1,6 +1,7 @@
 """The demonstrations, exactly as they were played."""
 
 from datetime import datetime
+from typing import Any
 
 from sqlalchemy import JSON, CheckConstraint, ForeignKey, Index, String
 from sqlalchemy.orm import Mapped, mapped_column
@@ -14,7 +15,7 @@ class Demonstration(Base):
     __tablename__ = "demonstration"
     __table_args__ = (
         CheckConstraint("outcome IN ('success', 'failure')", name="outcome"),
-        CheckConstraint("ending IN ('goal', 'gave_up', 'out_of_steps')", name="ending"),
+        CheckConstraint("ending IN ('goal', 'gave_up', 'out_of_steps', 'out_of_time')", name="ending"),
         Index("ix_demonstration_visitor_world", "visitor_id", "world_id", "number"),
     )
 
@@ -29,5 +30,18 @@ class Demonstration(Base):
     total: Mapped[float]
     outcome: Mapped[str] = mapped_column(String(7))
     ending: Mapped[str] = mapped_column(String(12))
+    parent_id: Mapped[str | None] = mapped_column(
+        ForeignKey("demonstration.id"), comment="the attempt from which this one was tried again"
+    )
+    parent_step: Mapped[int | None] = mapped_column(comment="steps copied from the parent")
+    slip_seeds: Mapped[list[list[Any]]] = mapped_column(
+        JSON, comment="pairs: a seed, and the step from which it decides"
+    )
+    record: Mapped[dict[str, Any] | None] = mapped_column(
+        JSON(none_as_null=True),
+        deferred=True,
+        deferred_raiseload=True,
+        comment="how it was played: demonstrations/record.py; large, so loaded only where it is asked for",
+    )
     created_at: Mapped[datetime]
     discarded_at: Mapped[datetime | None]

@@ -140,7 +140,7 @@ def test_a_charset_is_fine(client):
 
 
 def test_more_than_the_limit_is_413_declared_or_not(client):
-    large = b'{"walls": [' + b"1," * 600_000 + b"1]}"
+    large = b'{"walls": [' + b"1," * 1_100_000 + b"1]}"
     response = post_raw(client, "/api/v1/worlds", large)
     assert response.status_code == 413
     assert_refused(response)

@@ -57,7 +57,11 @@ def test_an_address_of_no_world_is_an_error_page_with_a_way_on(client, query):
 def test_the_play_page_knows_what_was_played_here_by_whom(client, other_client):
     world = make_world(client)
     played = make_demonstration(client, world)
-    assert island(client.get(f"/worlds/{world['id']}")) == {"world": world, "saved": True, "demonstrations": [played]}
+    del played["record"]  # no page looks at it
+    options = {"show_totals": True, "hold_to_move": False}
+    assert island(client.get(f"/worlds/{world['id']}")) == {
+        "world": world, "saved": True, "demonstrations": [played], "options": options,
+    }  # fmt: skip
     assert island(other_client.get(f"/worlds/{world['id']}"))["demonstrations"] == []
 
 
