@@ -1,18 +1,24 @@
 /** The JSON API: paths start below /api/v1 (`api.get("/worlds/…")`); every refusal becomes an `ApiError`. */
 
 const ROOT = "/api/v1";
+/** A server that asks for more has made a mistake, or one of our clocks has. */
+const LONGEST_RETRY_AFTER_MS = 600_000;
+/** Browsers refuse to keep larger requests alive (64 KiB for all of a page's together). */
+const LARGEST_KEPT_ALIVE = 60_000;
 
 /** A refusal of the server, or of the network (`status` 0, `code` "offline"). */
 export class ApiError extends Error {
   /**
-   * @param {{status: number, code: string, message: string, fields?: Record<string, unknown>}} refusal
+   * @param {{status: number, code: string, message: string, fields?: Record<string, unknown>, retryAfterMs?: number | null}} refusal
    */
-  constructor({ status, code, message, fields = {} }) {
+  constructor({ status, code, message, fields = {}, retryAfterMs = null }) {
     super(message);
     this.name = "ApiError";
     this.status = status;
     this.code = code;
     this.fields = fields;
+    /** How long the server asked to be left alone; null if it did not. */
+    this.retryAfterMs = retryAfterMs;
   }
 
   /** True when the same request may well succeed later: no network, too busy, a fault of the server. */
@@ -21,7 +27,7 @@ export class ApiError extends Error {
   }
 }
 
-/** @typedef {{signal?: AbortSignal, keepalive?: boolean}} CallOptions */
+/** @typedef {{signal?: AbortSignal, keepalive?: boolean}} CallOptions   `keepalive`: finish it even if the page is closed, where the browser can */
 
 export const api = {
   /** @param {string} path @param {CallOptions} [options] @returns {Promise<any>} */
@@ -50,7 +56,15 @@ async function call(method, path, body, options = {}) {
     code: error.code ?? `http_${response.status}`,
     message: error.message ?? `The server answered ${response.status} ${response.statusText}.`,
     fields: error.fields ?? {},
+    retryAfterMs: retryAfterMs(response.headers.get("Retry-After")),
   });
+}
+
+/** Seconds, or a date. @param {string | null} text @param {number} [now] ms since 1970 */
+export function retryAfterMs(text, now = Date.now()) {
+  if (text === null || text.trim() === "") return null;
+  const ms = /^\s*\d+\s*$/.test(text) ? 1000 * Number(text) : Date.parse(text) - now;
+  return Number.isFinite(ms) ? Math.min(LONGEST_RETRY_AFTER_MS, Math.max(0, ms)) : null;
 }
 
 /**
@@ -64,6 +78,7 @@ async function send(method, path, body, options) {
   const request = { method, headers: { Accept: "application/json" }, credentials: "same-origin", ...options };
   if (body !== undefined) {
     request.body = JSON.stringify(body);
+    request.keepalive = options.keepalive === true && request.body.length < LARGEST_KEPT_ALIVE;
     request.headers = { ...request.headers, "Content-Type": "application/json" };
   }
   try {

@@ -1,77 +1,126 @@
 /**
- * Attempts on their way to the server. Each is written to the browser's own storage (IndexedDB) before the first
- * request and leaves it when the server has acknowledged it; until then it is sent again: with growing pauses, when the
- * network comes back, when the page is seen again, at the next visit. Ids are made in the browser, so sending twice does
- * no harm. What the server refuses for good (409, 422, …) is kept and said plainly.
+ * Attempts on their way to the server. Each is written to the browser's own storage before the first request and leaves
+ * it when the server has acknowledged it; until then it is sent again: with growing pauses, when the server asked for
+ * it, when the network comes back, when the page is seen again, at the next visit. Ids are made in the browser, so
+ * sending twice does no harm; one tab sends at a time, so that strangers in two tabs become one visitor. What the server
+ * refuses for good (409, 422, …) is kept and said plainly; what the storage refuses lives in memory until it is sent.
  */
 
-import { ApiError, api } from "#js/lib/api.js";
+import { ApiError } from "#js/lib/api.js";
+import { inTurn } from "#js/lib/locks.js";
+import { isSound, parcelSender, storedParcels, wishId } from "#js/lib/parcels.js";
+import { browserStorage } from "#js/lib/storage.js";
 
 const FIRST_PAUSE_MS = 1000;
 const LONGEST_PAUSE_MS = 60_000;
+const DAMAGED = "What this browser had kept of it is damaged, so it cannot be sent.";
+
+/** @typedef {import("#js/lib/parcels.js").Parcel} Parcel */
+/** @typedef {import("#js/lib/parcels.js").AttemptParcel} AttemptParcel */
+/** @typedef {import("#js/lib/parcels.js").Store} Store */
 
 /**
- * @typedef {object} Parcel
- * @property {string} id                     of the demonstration
- * @property {string} worldId
- * @property {Record<string, unknown>} world what makes the world
- * @property {{id: string, actions: readonly number[], step_ms: readonly number[], ending: string}} body
- * @property {number} at                     when it was put in, ms since 1970
- * @property {string | null} refusal         the server's sentence, once it has refused for good
- */
-
-/**
- * @typedef {object} Store
- * @property {(parcel: Parcel) => Promise<void>} put
- * @property {(id: string) => Promise<void>} delete
- * @property {() => Promise<Parcel[]>} all
- */
-
-/**
+ * What becomes of a parcel. `kept`: it is in the storage, or in memory alone (`isStored`); `waiting`: the server could
+ * not take it, and why (`status`, 0 for no answer; `retryAfterMs`); `saved`, `refused`, `forgotten`.
  * @typedef {object} News
- * @property {"saved" | "waiting" | "refused"} kind
+ * @property {"kept" | "waiting" | "saved" | "refused" | "forgotten"} kind
  * @property {Parcel} parcel
+ * @property {boolean} [isStored]
+ * @property {number} [status]
+ * @property {number | null} [retryAfterMs]
  * @property {any} [demonstration]  as the server has it
+ * @property {boolean} [isElsewhere]  it happened in another tab
  */
+
+/** The outbox of this page, which hears from those of other tabs. @param {(news: News) => void} report */
+export function openOutbox(report) {
+  const channel = typeof BroadcastChannel === "undefined" ? null : new BroadcastChannel("irlfr");
+  const outbox = new Outbox({
+    store: storedParcels(browserStorage),
+    inTurn: (work) => inTurn("irlfr:outbox", browserStorage, work),
+    report: (news) => {
+      report(news);
+      channel?.postMessage(news);
+    },
+  });
+  channel?.addEventListener("message", ({ data }) => {
+    outbox.hear(data);
+    report({ ...data, isElsewhere: true });
+  });
+  return outbox;
+}
 
 export class Outbox {
   #store;
   #send;
   #report;
   #wait;
+  #inTurn;
+  #now;
   #pause = FIRST_PAUSE_MS;
+  #notBefore = 0;
+  #timer = 0;
   /** @type {Promise<void> | null} */
   #running = null;
   #isStale = false;
+  /** @type {Map<string, Parcel>} what the storage did not take */
+  #unstored = new Map();
+  /** Answered, though the storage may not have heard of it. @type {Set<unknown>} */
+  #answered = new Set();
 
   /**
    * @param {object} parts
    * @param {Store} parts.store
    * @param {(parcel: Parcel) => Promise<any>} [parts.send]
    * @param {(news: News) => void} [parts.report]
+   * @param {<T>(work: () => Promise<T>) => Promise<T>} [parts.inTurn]  while no other tab sends
    * @param {(run: () => void, ms: number) => void} [parts.wait]
+   * @param {() => number} [parts.now]  monotonic ms
    */
-  constructor({ store, send = sendParcel, report = () => {}, wait = (run, ms) => void setTimeout(run, ms) }) {
+  constructor({
+    store,
+    send = parcelSender(),
+    report = () => {},
+    inTurn: alone = (work) => work(),
+    wait = (run, ms) => void setTimeout(run, ms),
+    now = () => performance.now(),
+  }) {
     this.#store = store;
     this.#send = send;
     this.#report = report;
+    this.#inTurn = alone;
     this.#wait = wait;
+    this.#now = now;
   }
 
-  /** Keep a parcel, then try to send it. Resolves when it is kept. @param {Omit<Parcel, "at" | "refusal">} parcel */
-  async add(parcel) {
-    await this.#store.put({ ...parcel, at: Date.now(), refusal: null });
-    void this.flush();
+  /** How many parcels would be lost if this page were closed now. */
+  get nUnstored() {
+    return this.#unstored.size;
   }
 
-  /** Everything that is still here, oldest first. */
+  /** Keep a finished attempt, then try to send it. Resolves when it is kept. @param {Omit<AttemptParcel, "at" | "refusal" | "seq">} parcel */
+  add(parcel) {
+    return this.#keep({ ...parcel, at: Date.now(), refusal: null });
+  }
+
+  /** Discard or restore an attempt, after it has arrived. The last wish counts. @param {{attemptId: string, worldId: string, discarded: boolean}} wish */
+  setDiscarded({ attemptId, worldId, discarded }) {
+    const id = wishId(attemptId);
+    return this.#keep({ kind: "discard", id, attemptId, worldId, discarded, at: Date.now(), refusal: null });
+  }
+
+  /** Everything that is still here, oldest first. @returns {Promise<Parcel[]>} */
   async all() {
-    return (await this.#store.all()).sort((a, b) => a.at - b.at);
+    const stored = await this.#store.all().catch(() => []);
+    return [...stored, ...this.#unstored.values()];
   }
 
-  /** Forget a parcel (a refused one the person has read about). @param {string} id */
+  /** Forget an attempt (a refused one the person has read about). @param {string} id */
   async forget(id) {
-    await this.#store.delete(id);
+    const parcel = (await this.all()).find((one) => one.id === id);
+    if (!parcel) return;
+    await this.#remove(parcel);
+    this.#report({ kind: "forgotten", parcel });
   }
 
   /** Send what waits, oldest first, one at a time; the first that finds no server stops the round. */
@@ -89,97 +138,132 @@ export class Outbox {
       if (document.visibilityState === "visible") void this.flush();
     };
     window.addEventListener("online", again, { signal });
+    window.addEventListener("pageshow", again, { signal });
     document.addEventListener("visibilitychange", again, { signal });
     void this.flush();
   }
 
-  async #rounds() {
-    while (this.#isStale) {
-      this.#isStale = false;
-      for (const parcel of await this.all()) {
-        if (parcel.refusal === null && !(await this.#deliver(parcel))) return;
-      }
+  /** What another tab met holds for this one too. @param {News} news */
+  hear({ kind, retryAfterMs }) {
+    if (kind === "waiting" && retryAfterMs) this.#leaveAlone(retryAfterMs);
+    if (kind === "kept") void this.flush();
+  }
+
+  /** @param {Parcel} parcel */
+  async #keep(parcel) {
+    const isStored = await this.#put(parcel);
+    this.#report({ kind: "kept", parcel, isStored });
+    void this.flush();
+  }
+
+  /** @param {Parcel} parcel @returns {Promise<boolean>} whether it is in the storage */
+  async #put(parcel) {
+    try {
+      await this.#store.add(parcel);
+      this.#unstored.delete(parcel.id);
+      return true;
+    } catch {
+      this.#unstored.set(parcel.id, parcel);
+      return false;
     }
   }
 
-  /** @param {Parcel} parcel @returns {Promise<boolean>} false when the server could not be reached */
-  async #deliver(parcel) {
+  async #rounds() {
+    while (this.#isStale && this.#now() >= this.#notBefore) {
+      this.#isStale = false;
+      await this.#storeTheUnstored();
+      let couldSend = true;
+      while (couldSend) couldSend = await this.#inTurn(() => this.#sendNext());
+    }
+  }
+
+  /** There may be room again. */
+  async #storeTheUnstored() {
+    for (const parcel of [...this.#unstored.values()]) {
+      if (await this.#put(parcel)) this.#report({ kind: "kept", parcel, isStored: true });
+    }
+  }
+
+  /** @returns {Promise<boolean>} whether there may be more to send now */
+  async #sendNext() {
+    const parcel = this.#next(await this.all());
+    if (!parcel) return false;
+    if (!isSound(parcel)) return this.#refuse(parcel, DAMAGED);
     try {
       const demonstration = await this.#send(parcel);
-      await this.#store.delete(parcel.id);
+      await this.#remove(parcel);
       this.#pause = FIRST_PAUSE_MS;
       this.#report({ kind: "saved", parcel, demonstration });
       return true;
     } catch (error) {
-      if (error instanceof ApiError && !error.isTemporary) {
-        const refused = { ...parcel, refusal: error.message };
-        await this.#store.put(refused);
-        this.#report({ kind: "refused", parcel: refused });
-        return true;
-      }
-      this.#report({ kind: "waiting", parcel });
-      this.#wait(() => void this.flush(), this.#pause * (0.75 + Math.random() / 2));
-      this.#pause = Math.min(LONGEST_PAUSE_MS, this.#pause * 2);
-      return false;
+      if (error instanceof ApiError && !error.isTemporary) return this.#refuse(parcel, error.message, error.status);
+      return this.#comeBackLater(parcel, error);
     }
   }
-}
 
-/**
- * The world first, even one that the server has: it costs nothing to make the same world again, and its answer brings a
- * new visitor their cookie. Were the attempt the first to ask, and its answer lost, it would come again from a stranger.
- * @param {Parcel} parcel
- */
-export async function sendParcel({ world, body }) {
-  const { id } = await api.post("/worlds", world);
-  return api.post(`/worlds/${id}/demonstrations`, body, { keepalive: true });
-}
+  /** Whatever another one rests on goes first. @param {Parcel[]} parcels */
+  #next(parcels) {
+    const waiting = parcels.filter((parcel) => parcel.refusal === null && !this.#answered.has(keyOf(parcel)));
+    const ids = new Set(waiting.map(({ id }) => id));
+    return waiting.find((parcel) => !ids.has(foundationOf(parcel)));
+  }
 
-/** The browser's own storage; where it is closed to us (some private windows), memory, which lasts as long as the page. @returns {Promise<{store: Store, lasts: boolean}>} */
-export async function openStore() {
-  try {
-    return { store: indexedStore(await openDatabase()), lasts: true };
-  } catch {
-    return { store: memoryStore(), lasts: false };
+  /** @param {Parcel} parcel @param {string} refusal @param {number} [status] */
+  async #refuse(parcel, refusal, status) {
+    const refused = { ...parcel, refusal, status };
+    // A wish that cannot be granted is told, and over; an attempt is kept.
+    if (parcel.kind === "discard") await this.#remove(parcel);
+    else await this.#keepRefused(refused);
+    this.#report({ kind: "refused", parcel: refused, status });
+    return true;
+  }
+
+  /** @param {Parcel} refused */
+  async #keepRefused(refused) {
+    if (this.#unstored.has(refused.id)) this.#unstored.set(refused.id, refused);
+    else await this.#store.refuse(refused).catch(() => this.#answered.add(keyOf(refused)));
+  }
+
+  /** @param {Parcel} parcel @param {unknown} error */
+  #comeBackLater(parcel, error) {
+    const { status, retryAfterMs } = error instanceof ApiError ? error : { status: 0, retryAfterMs: null };
+    this.#report({ kind: "waiting", parcel, status, retryAfterMs });
+    if (retryAfterMs) this.#leaveAlone(retryAfterMs);
+    else this.#flushIn(this.#pause * (0.75 + Math.random() / 2));
+    this.#pause = Math.min(LONGEST_PAUSE_MS, this.#pause * 2);
+    return false;
+  }
+
+  /** As long as the server asked for, and a little longer: not everybody at once. @param {number} ms */
+  #leaveAlone(ms) {
+    this.#notBefore = Math.max(this.#notBefore, this.#now() + ms);
+    this.#flushIn((1.05 + Math.random() / 4) * ms);
+  }
+
+  /** The last call counts. @param {number} ms */
+  #flushIn(ms) {
+    this.#timer += 1;
+    const timer = this.#timer;
+    this.#wait(() => {
+      if (timer === this.#timer) void this.flush();
+    }, ms);
+  }
+
+  /** @param {Parcel} parcel */
+  async #remove(parcel) {
+    this.#answered.add(keyOf(parcel));
+    if (this.#unstored.get(parcel.id) === parcel) this.#unstored.delete(parcel.id);
+    else await this.#store.delete(parcel).catch(() => {});
   }
 }
 
-/** @returns {Store} */
-export function memoryStore() {
-  /** @type {Map<string, Parcel>} */
-  const kept = new Map();
-  return {
-    put: async (parcel) => void kept.set(parcel.id, parcel),
-    delete: async (id) => void kept.delete(id),
-    all: async () => [...kept.values()],
-  };
+/** @param {Parcel} parcel */
+function keyOf(parcel) {
+  return parcel.seq ?? parcel;
 }
 
-/** @returns {Promise<IDBDatabase>} */
-function openDatabase() {
-  return new Promise((resolve, reject) => {
-    const request = indexedDB.open("irlfr", 1);
-    request.onupgradeneeded = () => request.result.createObjectStore("outbox", { keyPath: "id" });
-    request.onsuccess = () => resolve(request.result);
-    request.onerror = () => reject(request.error);
-    request.onblocked = () => reject(new Error("Another tab holds an older version of the storage."));
-  });
-}
-
-/** @param {IDBDatabase} database @returns {Store} */
-function indexedStore(database) {
-  /** @template T @param {IDBTransactionMode} mode @param {(store: IDBObjectStore) => IDBRequest<T>} ask @returns {Promise<T>} */
-  const run = (mode, ask) =>
-    new Promise((resolve, reject) => {
-      const transaction = database.transaction("outbox", mode, { durability: "strict" });
-      const request = ask(transaction.objectStore("outbox"));
-      transaction.oncomplete = () => resolve(request.result);
-      transaction.onerror = () => reject(transaction.error);
-      transaction.onabort = () => reject(transaction.error);
-    });
-  return {
-    put: async (parcel) => void (await run("readwrite", (store) => store.put(parcel))),
-    delete: async (id) => void (await run("readwrite", (store) => store.delete(id))),
-    all: () => run("readonly", (store) => store.getAll()),
-  };
+/** The id of the parcel that has to arrive before this one; empty if it rests on none. @param {Parcel} parcel */
+function foundationOf(parcel) {
+  const id = parcel.kind === "discard" ? parcel.attemptId : parcel.body?.parent_id;
+  return id === undefined || id === parcel.id ? "" : id;
 }

@@ -6,7 +6,7 @@ import { announce } from "#js/lib/announce.js";
 import { ApiError, api } from "#js/lib/api.js";
 import { byId } from "#js/lib/dom.js";
 import { isTaken } from "#js/lib/keys.js";
-import { Outbox, openStore } from "#js/lib/outbox.js";
+import { openOutbox } from "#js/lib/outbox.js";
 import { pageData } from "#js/lib/page-data.js";
 import { setStep } from "#js/lib/path.js";
 import { CardList } from "#js/rankings/card-list.js";
@@ -267,16 +267,21 @@ class RankPage {
   }
 
   /** Attempts that still wait in this browser belong into the lists once they are saved. @param {AbortSignal} signal */
-  async #watchOutbox(signal) {
-    const { store } = await openStore();
+  #watchOutbox(signal) {
     const report = (/** @type {import("#js/lib/outbox.js").News} */ { kind, parcel }) => {
-      if (kind !== "saved" || parcel.worldId !== this.#data.world.id || this.#byId.has(parcel.id)) return;
+      if (
+        kind !== "saved" ||
+        parcel.kind === "discard" ||
+        parcel.worldId !== this.#data.world.id ||
+        this.#byId.has(parcel.id)
+      )
+        return;
       this.#tell(
         "An attempt that was waiting has just been saved. Load the page again to rank it too; your order is kept.",
         true,
       );
     };
-    new Outbox({ store, report }).watch(signal);
+    openOutbox(report).watch(signal);
   }
 }
 

@@ -1,70 +1,79 @@
 /** The finished attempts of this world: counted, listed, saved, discarded, restored; and the way on to ranking. */
 
-import { outcomeOf, replayActions, totalOf } from "#js/board/moves.js";
 import { announce } from "#js/lib/announce.js";
-import { ApiError, api } from "#js/lib/api.js";
 import { byId } from "#js/lib/dom.js";
-import { plural } from "#js/lib/format.js";
-import { Outbox, openStore } from "#js/lib/outbox.js";
+import { openOutbox } from "#js/lib/outbox.js";
 import { disableLink, enableLink, setStep, showCounts } from "#js/lib/path.js";
 import { AttemptStrip } from "#js/worlds/attempt-strip.js";
+import { bodyOf, entryOfAttempt, entryOfDemonstration, entryOfParcel, fileOf } from "#js/worlds/entries.js";
+import { toQuery } from "#js/worlds/query.js";
+import { SavingBadge } from "#js/worlds/saving-badge.js";
+import { refusalSentence, wishSentence } from "#js/worlds/saving-words.js";
 import { canRank, missingSentence } from "#js/worlds/sentences.js";
 
 /** @typedef {import("#js/board/moves.js").Attempt} Attempt */
-/** @typedef {import("#js/worlds/attempt-strip.js").Entry} Entry */
+/** @typedef {import("#js/lib/outbox.js").News} News */
+/** @typedef {import("#js/lib/parcels.js").Parcel} Parcel */
+/** @typedef {import("#js/worlds/entries.js").Entry} Entry */
 
 export class Collection {
   #world;
+  #spec;
   #isSaved;
   #nWanted;
   /** @type {Entry[]} oldest first */
   #entries;
   #strip;
-  /** @type {Promise<Outbox>} */
-  #outbox;
-  #lasts = true;
-  #isReachable = true;
+  #outbox = openOutbox((news) => this.#hear(news));
+  #badge = new SavingBadge(() => this.#outbox.nUnstored);
 
   /**
    * @param {{world: import("#js/board/state.js").World, saved: boolean, demonstrations: any[]}} data
    * @param {number} nWanted
-   * @param {{replay: (entry: Entry, n: number) => void}} acts
+   * @param {{replay: (entry: Entry, n: number) => void, showTotals?: boolean}} options
    */
-  constructor({ world, saved, demonstrations }, nWanted, { replay }) {
+  constructor({ world, saved, demonstrations }, nWanted, { replay, showTotals = true }) {
+    if (!world.spec) throw new Error("This world does not say how it is made, so it could not be sent.");
     this.#world = world;
+    this.#spec = world.spec;
     this.#isSaved = saved;
     this.#nWanted = nWanted;
-    this.#entries = demonstrations.map(entryOf);
-    this.#outbox = this.#openOutbox();
-    const template = /** @type {HTMLTemplateElement} */ (byId("attempt-card"));
-    this.#strip = new AttemptStrip(byId("attempts"), template, world, {
-      replay,
-      discard: (entry) => this.#setDiscarded(entry, true),
-      restore: (entry) => this.#setDiscarded(entry, false),
+    this.#entries = demonstrations.map(entryOfDemonstration);
+    this.#strip = new AttemptStrip(byId("attempts"), templateOf("attempt-card"), world, {
+      showTotals,
+      acts: {
+        replay,
+        discard: (entry) => this.#setDiscarded(entry, true),
+        restore: (entry) => this.#setDiscarded(entry, false),
+        save: (entry, n) => this.#saveAsFile(entry, n),
+        forget: (entry) => this.#forget(entry),
+      },
     });
   }
 
-  /** @param {AbortSignal} signal */
+  /** Show what the page knows, then what waits in this browser, and send it. @param {AbortSignal} signal */
   async start(signal) {
     this.#show();
-    const outbox = await this.#outbox;
-    for (const parcel of await outbox.all()) {
-      if (parcel.worldId === this.#world.id && !this.#find(parcel.id)) this.#entries.push(this.#entryOfParcel(parcel));
-    }
+    for (const parcel of await this.#outbox.all()) if (this.#isOfThisWorld(parcel)) this.#takeIn(parcel);
     this.#show();
-    outbox.watch(signal);
+    this.#badge.start(signal);
+    this.#outbox.watch(signal);
   }
 
-  /** Keep a finished attempt and send it. @param {Attempt} attempt */
-  add(attempt) {
-    const { id, states, actions, stepMs, ending } = attempt;
-    const shared = { id, states, actions, outcome: outcomeOf(attempt), total: totalOf(attempt) };
-    this.#entries.push({ ...shared, discarded: false, sync: "waiting", note: null });
+  /** Keep a finished attempt and send it. @param {Attempt} attempt @param {unknown} [record] */
+  add(attempt, record) {
+    this.#entries.push(entryOfAttempt(attempt));
+    const { id, slipSeeds } = attempt;
+    const parcel = { id, worldId: this.#world.id, world: { ...this.#spec }, body: bodyOf(attempt, record), slipSeeds };
+    this.#badge.wait(parcel);
     this.#outdateOrder();
     this.#show();
-    const body = { id, actions, step_ms: stepMs, ending: ending ?? "gave_up" };
-    const parcel = { id, worldId: this.#world.id, world: this.#spec(), body };
-    void this.#outbox.then((outbox) => outbox.add(parcel));
+    void this.#outbox.add(parcel);
+  }
+
+  /** @param {string} id */
+  entry(id) {
+    return this.#entries.find((entry) => entry.id === id);
   }
 
   /** Attempts of this outcome that count. @param {"success" | "failure"} outcome */
@@ -73,41 +82,41 @@ export class Collection {
       .length;
   }
 
-  /** Put the seed into the address, so that a reload or a copied link opens this world even before it is stored. */
-  shareSeed() {
-    if (this.#isSaved || this.#world.seed === null || this.#world.walls.length > 0) return;
-    const { seed, rows, cols, red_probability, slip } = this.#world;
-    const query = new URLSearchParams({ seed: String(seed), rows: String(rows), cols: String(cols) });
-    if (red_probability !== null) query.set("red_probability", String(red_probability));
-    if (slip > 0) query.set("slip", String(slip));
-    history.replaceState(null, "", `/?${query}`);
+  /** Put the world into the address, so that a reload or a copied link opens it even before it is stored. */
+  shareQuery() {
+    if (!this.#isSaved) history.replaceState(null, "", `/?${toQuery(this.#spec)}`);
   }
 
-  /** @returns {Promise<Outbox>} */
-  async #openOutbox() {
-    const { store, lasts } = await openStore();
-    this.#lasts = lasts;
-    return new Outbox({ store, report: (news) => this.#hear(news) });
-  }
-
-  /** @param {import("#js/lib/outbox.js").News} news */
-  #hear({ kind, parcel, demonstration }) {
-    if (kind === "saved" && parcel.worldId === this.#world.id)
-      this.#becomeSaved(demonstration?.world_id ?? parcel.worldId);
-    this.#isReachable = kind !== "waiting";
-    const entry = this.#find(parcel.id);
-    if (entry) this.#note(entry, { kind, parcel, demonstration });
+  /** @param {News} news */
+  #hear(news) {
+    const { parcel, kind } = news;
+    if (this.#isOfThisWorld(parcel)) {
+      if (kind === "kept") this.#takeIn(parcel);
+      else if (kind === "saved") this.#settle(news);
+      else if (kind === "refused") this.#refuse(news);
+      else if (kind === "forgotten") this.#remove(parcel.id);
+    }
+    this.#badge.hear(news);
     this.#show();
   }
 
-  /** @param {Entry} entry @param {import("#js/lib/outbox.js").News} news */
-  #note(entry, { kind, parcel, demonstration }) {
-    entry.sync = kind;
-    if (kind === "saved") entry.total = demonstration?.total ?? entry.total;
-    if (kind === "refused") {
-      entry.note = `The server did not accept this attempt: ${parcel.refusal}`;
-      announce(entry.note);
-    }
+  /** A parcel of an earlier visit, or of another tab. @param {Parcel} parcel */
+  #takeIn(parcel) {
+    if (parcel.refusal === null) this.#badge.wait(parcel);
+    if (parcel.kind === "discard") {
+      const entry = this.entry(parcel.attemptId);
+      if (entry) Object.assign(entry, { discarded: parcel.discarded, note: null });
+    } else if (!this.entry(parcel.id)) this.#entries.push(entryOfParcel(this.#world, parcel));
+  }
+
+  /** @param {News} news */
+  #settle({ parcel, demonstration }) {
+    if (parcel.kind === "discard") return;
+    const { total, world_id: worldId } = demonstration;
+    const entry = this.entry(parcel.id);
+    if (entry) Object.assign(entry, { total, sync: "saved", note: null });
+    else this.#entries.push(entryOfDemonstration(demonstration));
+    this.#becomeSaved(worldId);
   }
 
   /** @param {string} worldId */
@@ -117,30 +126,58 @@ export class Collection {
     history.replaceState(null, "", `/worlds/${worldId}`);
   }
 
-  /** @param {Entry} entry @param {boolean} isDiscarded */
-  async #setDiscarded(entry, isDiscarded) {
-    if (entry.sync === "refused") return this.#forget(entry);
-    entry.discarded = isDiscarded;
+  /** @param {News} news */
+  #refuse({ parcel }) {
+    const entry = this.entry(parcel.kind === "discard" ? parcel.attemptId : parcel.id);
+    if (!entry || (parcel.kind === "discard" && entry.sync === "refused")) return;
+    if (parcel.kind === "discard") {
+      entry.discarded = !parcel.discarded;
+      entry.note = wishSentence({ message: parcel.refusal ?? "", isDiscarded: parcel.discarded });
+    } else {
+      entry.sync = "refused";
+      entry.note = refusalSentence(parcel);
+    }
+    announce(entry.note);
+  }
+
+  /** @param {Entry} entry @param {boolean} discarded */
+  #setDiscarded(entry, discarded) {
+    entry.discarded = discarded;
     entry.note = null;
     this.#outdateOrder();
     this.#show();
-    announce(isDiscarded ? "Discarded. It can be restored." : "Restored.");
-    try {
-      const path = `/demonstrations/${entry.id}/discard`;
-      await (isDiscarded ? api.put(path) : api.delete(path));
-    } catch (error) {
-      entry.discarded = !isDiscarded;
-      entry.note = error instanceof ApiError ? error.message : "That did not work.";
-      this.#show();
-      announce(entry.note);
-    }
+    announce(discarded ? "Discarded. It can be restored." : "Restored.");
+    void this.#outbox.setDiscarded({ attemptId: entry.id, worldId: this.#world.id, discarded });
+  }
+
+  /** @param {Entry} entry @param {number} n */
+  async #saveAsFile(entry, n) {
+    const parcel = (await this.#outbox.all()).find(({ id }) => id === entry.id);
+    if (!parcel || parcel.kind === "discard") return;
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(new Blob([fileOf(this.#world, entry, parcel)], { type: "application/jsonl" }));
+    link.download = `attempt-${n}-${entry.id.slice(0, 8)}.jsonl`;
+    link.click();
+    // The download has its own hold on the data by then.
+    setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+    announce(`Attempt ${n} is saved as the file ${link.download}.`);
   }
 
   /** @param {Entry} entry */
   async #forget(entry) {
-    this.#entries = this.#entries.filter((other) => other !== entry);
-    this.#show();
-    await (await this.#outbox).forget(entry.id);
+    await this.#outbox.forget(entry.id);
+    announce("Forgotten.");
+    byId("board").focus({ preventScroll: true });
+  }
+
+  /** @param {string} id */
+  #remove(id) {
+    this.#entries = this.#entries.filter((entry) => entry.id !== id);
+  }
+
+  /** A damaged parcel has to be shown somewhere. @param {Parcel} parcel */
+  #isOfThisWorld({ worldId }) {
+    return worldId === this.#world.id || typeof worldId !== "string";
   }
 
   /** A confirmed order no longer holds once the attempts are others. */
@@ -154,7 +191,7 @@ export class Collection {
     byId("attempts-empty").hidden = this.#entries.length > 0;
     this.#showTally("success", counts.nSuccesses);
     this.#showTally("failure", counts.nFailures);
-    this.#showSync();
+    this.#badge.show(this.#entries.length > 0);
     showCounts({ worldId: this.#world.id, isSaved: this.#isSaved, ...counts });
     this.#showNext(counts);
   }
@@ -165,22 +202,6 @@ export class Collection {
     const words = document.querySelector(`#tally [data-outcome="${outcome}"]`);
     words?.setAttribute("data-full", String(n >= this.#nWanted));
     words?.querySelector(".tally-wanted")?.toggleAttribute("hidden", n > this.#nWanted);
-  }
-
-  #showSync() {
-    const nWaiting = this.#entries.filter((entry) => entry.sync === "waiting").length;
-    const badge = byId("sync");
-    badge.hidden = this.#entries.length === 0;
-    badge.dataset.sync = nWaiting > 0 ? (this.#isReachable && navigator.onLine ? "waiting" : "offline") : "saved";
-    badge.dataset.kind = badge.dataset.sync === "offline" ? "attention" : "";
-    badge.textContent = this.#syncWords(badge.dataset.sync, nWaiting);
-  }
-
-  /** @param {string} sync @param {number} nWaiting */
-  #syncWords(sync, nWaiting) {
-    if (sync === "saved") return "✓ all saved";
-    if (sync === "waiting") return `saving ${nWaiting} …`;
-    return this.#lasts ? `offline: ${plural(nWaiting, "attempt")} kept here` : "offline: keep this page open";
   }
 
   /** @param {{nSuccesses: number, nFailures: number, nWanted: number}} counts */
@@ -197,40 +218,9 @@ export class Collection {
     if (isPossible) enableLink(next, `/worlds/${this.#world.id}/rank`);
     else disableLink(next);
   }
-
-  /** @param {string} id */
-  #find(id) {
-    return this.#entries.find((entry) => entry.id === id);
-  }
-
-  /** @param {import("#js/lib/outbox.js").Parcel} parcel @returns {Entry} */
-  #entryOfParcel(parcel) {
-    const walked = replayActions(this.#world, {
-      id: parcel.id,
-      actions: parcel.body.actions,
-      stepMs: parcel.body.step_ms,
-    });
-    return {
-      id: parcel.id,
-      states: walked.states,
-      actions: walked.actions,
-      outcome: outcomeOf(walked),
-      total: totalOf(walked),
-      discarded: false,
-      sync: parcel.refusal === null ? "waiting" : "refused",
-      note: parcel.refusal === null ? null : `The server did not accept this attempt: ${parcel.refusal}`,
-    };
-  }
-
-  /** What makes this world again, on a server that does not have it yet. */
-  #spec() {
-    const { rows, cols, seed, red_probability, slip, walls } = this.#world;
-    const spec = { rows, cols, seed, red_probability, slip, walls };
-    return Object.fromEntries(Object.entries(spec).filter(([, value]) => value !== null));
-  }
 }
 
-/** @param {any} demonstration of the API @returns {Entry} */
-function entryOf({ id, states, actions, outcome, total, discarded }) {
-  return { id, states, actions, outcome, total, discarded, sync: "saved", note: null };
+/** @param {string} id */
+function templateOf(id) {
+  return /** @type {HTMLTemplateElement} */ (byId(id));
 }

@@ -13,7 +13,10 @@ import { number, plural, signed } from "#js/lib/format.js";
 import { pageData } from "#js/lib/page-data.js";
 import { keepAttempt, keptAttempt } from "#js/worlds/checkpoint.js";
 import { Collection } from "#js/worlds/collection.js";
+import { Feedback } from "#js/worlds/feedback.js";
 import { listenToGamepad } from "#js/worlds/gamepad.js";
+import { startOptions } from "#js/worlds/options.js";
+import { offerPractice, startPractice } from "#js/worlds/practice.js";
 import { finishSentence } from "#js/worlds/sentences.js";
 
 /** @typedef {import("#js/board/moves.js").Attempt} Attempt */
@@ -33,6 +36,7 @@ class PlayPage {
   #attempt = beginAttempt(this.#world, crypto.randomUUID());
   #lastEvent = performance.now();
   #numbers = false;
+  #feedback = new Feedback();
   #collection = new Collection(this.#data, this.#nWanted, { replay: (entry, n) => this.#startReplay(entry, n) });
 
   start() {
@@ -43,6 +47,7 @@ class PlayPage {
     listenToPointer(this.#board, this, this.#life.signal);
     listenToGamepad(this, this.#life.signal);
     this.#listenToButtons();
+    this.#offerHelp();
     this.#collection.start(this.#life.signal);
     this.#show();
   }
@@ -54,12 +59,14 @@ class PlayPage {
     const before = stateOf(this.#attempt);
     const ms = Math.min(LONGEST_STEP_MS, Math.max(0, Math.round((when - this.#lastEvent) * 10) / 10));
     this.#lastEvent = when;
-    if (this.#attempt.actions.length === 0) this.#collection.shareSeed();
+    if (this.#attempt.actions.length === 0) this.#collection.shareQuery();
     this.#attempt = step(this.#world, this.#attempt, action, ms);
     const reached = stateOf(this.#attempt);
     this.#show();
     const { taken, isSlip } = lastStep(this.#world, this.#attempt);
     if (reached === before) this.#board.bump(taken);
+    if (reached === before) this.#feedback.bump();
+    this.#feedback.step({ reward: this.#attempt.rewards.at(-1) ?? 0, isSlip });
     this.#floatReward(reached, isSlip);
     if (this.#attempt.ending === null)
       this.#speak(`${isSlip ? `Slipped ${DIRECTIONS[taken]}. ` : ""}${reached === before ? "Bumped. " : ""}`);
@@ -85,7 +92,7 @@ class PlayPage {
   /** @param {string} command */
   command(command) {
     if (command === "where") return this.#speak("", false);
-    if (command === "sound") return;
+    if (command === "sound") return this.#feedback.toggleSound();
     const shows = this.#slot.dataset.shows;
     if (shows === "replay") this.#endReplay();
     if (command === "endReplay") return;
@@ -149,6 +156,7 @@ class PlayPage {
     byId("result-title").textContent = `${outcome === "success" ? "✓" : "✗"} ${title}`;
     byId("result-text").textContent = text;
     this.#slot.dataset.shows = "result";
+    this.#feedback.finish(outcome);
     if (outcome === "success") this.#board.hop();
     announce(`${title}. ${text} Enter plays again.`);
   }
@@ -225,6 +233,17 @@ class PlayPage {
     };
     byId("play").addEventListener("click", onClick, { signal });
     byId("numbers").addEventListener("click", () => this.#toggleNumbers(), { signal });
+  }
+
+  /** Options, and the practice for whoever is new. */
+  #offerHelp() {
+    const { signal } = this.#life;
+    const feedback = this.#feedback;
+    const toBoard = () => this.#board.focus({ preventScroll: true });
+    const dialog = /** @type {HTMLDialogElement} */ (byId("practice"));
+    const practise = () => startPractice({ dialog, feedback, onDone: toBoard });
+    offerPractice({ practise, onSkip: toBoard });
+    startOptions({ feedback, practise, signal });
   }
 
   /** @param {number} speed */

@@ -1,0 +1,86 @@
+/** The badge beside the list: saved, waiting, offline, busy, or in this page alone; with a sentence where that needs one. */
+
+import { announce } from "#js/lib/announce.js";
+import { byId } from "#js/lib/dom.js";
+import { savingNews, savingWords } from "#js/worlds/saving-words.js";
+
+/** @typedef {import("#js/lib/outbox.js").News} News */
+/** @typedef {import("#js/lib/parcels.js").Parcel} Parcel */
+
+export class SavingBadge {
+  #nUnstored;
+  /** What waits, by id. @type {Map<string, "attempt" | "wish">} */
+  #waiting = new Map();
+  /** @type {import("#js/worlds/saving-words.js").Saving["trouble"]} */
+  #trouble = null;
+  /** @type {import("#js/worlds/saving-words.js").SavingWords["sync"]} */
+  #sync = "saved";
+  #isGuarding = false;
+
+  /** @param {() => number} nUnstored parcels that live in this page alone */
+  constructor(nUnstored) {
+    this.#nUnstored = nUnstored;
+  }
+
+  /** @param {AbortSignal} signal */
+  start(signal) {
+    for (const type of ["online", "offline"]) window.addEventListener(type, () => this.show(true), { signal });
+    signal.addEventListener("abort", () => this.#guard(false));
+  }
+
+  /** @param {Pick<Parcel, "id" | "kind">} parcel */
+  wait({ id, kind }) {
+    this.#waiting.set(id, kind === "discard" ? "wish" : "attempt");
+  }
+
+  /** @param {News} news */
+  hear({ kind, parcel, status, retryAfterMs }) {
+    if (kind === "kept") return;
+    if (kind === "waiting") this.#trouble = { status: status ?? 0, retryAfterMs: retryAfterMs ?? null };
+    else {
+      this.#waiting.delete(parcel.id);
+      this.#trouble = null;
+    }
+  }
+
+  /** @param {boolean} isNeeded there is something that could be saved */
+  show(isNeeded) {
+    const kinds = [...this.#waiting.values()];
+    const words = savingWords({
+      nAttempts: kinds.filter((kind) => kind === "attempt").length,
+      nWishes: kinds.filter((kind) => kind === "wish").length,
+      nUnstored: this.#nUnstored(),
+      trouble: this.#trouble,
+      isOnline: navigator.onLine,
+    });
+    const badge = byId("sync");
+    badge.hidden = !isNeeded;
+    badge.dataset.sync = words.sync;
+    badge.dataset.kind = words.sync === "saved" || words.sync === "waiting" ? "" : "attention";
+    badge.textContent = words.badge;
+    byId("saving").textContent = words.sentence;
+    byId("saving").hidden = words.sentence === "";
+    this.#tell(words);
+    this.#guard(words.sync === "memory");
+  }
+
+  /** @param {import("#js/worlds/saving-words.js").SavingWords} words */
+  #tell(words) {
+    const news = savingNews(words, this.#sync);
+    this.#sync = words.sync;
+    if (news) announce(news);
+  }
+
+  /** Ask before the page is closed, but only while that would lose something. @param {boolean} isNeeded */
+  #guard(isNeeded) {
+    if (isNeeded === this.#isGuarding) return;
+    this.#isGuarding = isNeeded;
+    if (isNeeded) window.addEventListener("beforeunload", ask);
+    else window.removeEventListener("beforeunload", ask);
+  }
+}
+
+/** @param {Event} event */
+function ask(event) {
+  event.preventDefault();
+}

@@ -1,0 +1,85 @@
+/** What the play page says about saving, each sentence built from plain figures. Nothing is lost, and the words say so. */
+
+import { plural } from "#js/lib/format.js";
+
+/**
+ * @typedef {object} Saving
+ * @property {number} nAttempts    that the server does not have yet
+ * @property {number} nWishes      discards and restores that it does not know of yet
+ * @property {number} nUnstored    of both, those that live in this page alone
+ * @property {{status: number, retryAfterMs: number | null} | null} trouble  what the server answered last (0: nothing), if it could not take them
+ * @property {boolean} isOnline
+ */
+
+/** @typedef {{sync: "saved" | "waiting" | "offline" | "busy" | "memory", badge: string, sentence: string}} SavingWords */
+
+/** @param {Saving} saving @returns {SavingWords} */
+export function savingWords(saving) {
+  const { nAttempts, nWishes, nUnstored, trouble, isOnline } = saving;
+  if (nAttempts + nWishes === 0) return { sync: "saved", badge: "✓ all saved", sentence: "" };
+  const what = nAttempts > 0 ? plural(nAttempts, "attempt") : plural(nWishes, "change");
+  const it = nAttempts + nWishes === 1 ? "it" : "them";
+  if (nUnstored > 0)
+    return { sync: "memory", badge: `${what}: keep this page open`, sentence: unstoredSentence(saving) };
+  if (trouble === null && isOnline) return { sync: "waiting", badge: `saving ${what} …`, sentence: "" };
+  const isBusy = isOnline && trouble !== null && trouble.status > 0;
+  if (isBusy) return { sync: "busy", badge: `${what} kept here`, sentence: busySentence(trouble, it) };
+  const sentence = `The server cannot be reached just now. What you play is kept in this browser and sent by itself later, even if you close the page.`;
+  return { sync: "offline", badge: `offline: ${what} kept here`, sentence };
+}
+
+/** @param {Saving} saving */
+function unstoredSentence({ nUnstored, trouble, isOnline }) {
+  const [is, it] = nUnstored === 1 ? ["1 of your attempts is", "it"] : [`${nUnstored} of your attempts are`, "them"];
+  const has =
+    trouble === null && isOnline
+      ? `is getting ${it} now`
+      : `cannot be reached just now, and gets ${it} as soon as it can`;
+  return `This browser's storage is full or closed, so ${is} in this page alone. The server ${has}: please keep the page open until then.`;
+}
+
+/** @param {{status: number, retryAfterMs: number | null}} trouble @param {string} it */
+function busySentence({ status, retryAfterMs }, it) {
+  const sends = `kept in this browser; the page sends ${it} again`;
+  if (retryAfterMs)
+    return `The server is busy and asked for ${timeWords(retryAfterMs)}. What you played is ${sends} then.`;
+  if (status === 500) return `Something went wrong on the server. What you played is ${sends} by itself.`;
+  return `The server is busy just now. What you played is ${sends} in a moment.`;
+}
+
+/** "20 s", "3 min". @param {number} ms */
+function timeWords(ms) {
+  const s = Math.max(1, Math.ceil(ms / 1000));
+  return s < 120 ? `${s} s` : `${Math.round(s / 60)} min`;
+}
+
+/** What is spoken when the state of saving has changed. @param {SavingWords} now @param {SavingWords["sync"]} before */
+export function savingNews(now, before) {
+  if (now.sync === before || now.sync === "waiting") return "";
+  if (now.sync !== "saved") return now.sentence;
+  return before === "waiting" ? "" : "Everything is saved again.";
+}
+
+/** Why an attempt is kept here for good. @param {{refusal: string | null, status?: number}} parcel */
+export function refusalSentence({ refusal, status }) {
+  const kept = "It stays in this browser: save it as a file, or forget it.";
+  if (status === 409) {
+    return `The server has another attempt under the same number, so it did not take this one. ${kept}`;
+  }
+  return `This attempt could not be saved. ${refusal ?? ""} ${kept}`;
+}
+
+/** @param {{message: string, isDiscarded: boolean}} wish that was not granted */
+export function wishSentence({ message, isDiscarded }) {
+  return `This could not be ${isDiscarded ? "discarded" : "restored"}. ${message}`;
+}
+
+/** Attempts that are kept but can no longer be read. @param {number} n */
+export function damagedSentence(n) {
+  const [it, is] = n === 1 ? ["An unfinished attempt", "is"] : [`${n} unfinished attempts`, "are"];
+  return `${it} in this browser's storage ${is} damaged and cannot go on. What is left is set aside; your other attempts are as they were.`;
+}
+
+/** No attempt can be kept step by step. */
+export const UNKEPT_SENTENCE =
+  "This browser's storage is full or closed. Finished attempts are still sent to the server; one that is not finished would be lost if you closed the page.";
