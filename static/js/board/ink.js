@@ -1,6 +1,6 @@
 /** What is drawn above the squares of a board: visits, paths, arrows, figures. Lengths are device pixels. */
 
-import { traceMarker, walker } from "#js/board/colours.js";
+import { drawPaths } from "#js/board/paths.js";
 import { strokeInks } from "#js/board/render.js";
 import { colourOf, DELTAS, placeOf, rewardOf } from "#js/board/state.js";
 import { number } from "#js/lib/format.js";
@@ -23,7 +23,7 @@ export function drawInk(scene) {
   const { context, view } = scene;
   context.clearRect(0, 0, context.canvas.width, context.canvas.height);
   if (view.visits) drawVisits(scene);
-  for (const index of view.paths.keys()) drawPath(scene, index);
+  drawPaths(scene);
   if (view.arrows && !(view.numbers && isTight(scene))) drawArrows(scene);
   if (view.numbers) drawFigures(scene);
 }
@@ -56,78 +56,6 @@ function drawVisits({ context, geometry, world, view, theme }) {
   context.lineWidth = Math.max(ratio * 0.75, cell * 0.02);
   context.strokeStyle = theme.canvas;
   context.stroke(path);
-}
-
-/** @param {Scene} scene @param {number} index */
-function drawPath({ context, geometry, world, view, theme }, index) {
-  const path = view.paths[index];
-  if (!path || path.states.length < 2) return;
-  const { cell, ratio } = geometry;
-  // Paths side by side rather than on top of each other, within a third of a square.
-  const gap = Math.min(0.1, 0.34 / Math.max(1, view.paths.length));
-  const shift = (index - (view.paths.length - 1) / 2) * gap;
-  const points = path.states.map((state) => {
-    const [row, col] = placeOf(world, state);
-    return /** @type {const} */ ([(col + 0.5 + shift) * cell, (row + 0.5 + shift) * cell]);
-  });
-  const width = Math.max(1.75 * ratio, cell * (0.05 + 0.12 * (path.width ?? 0.4)));
-  const opacity = path.opacity ?? 1;
-  const colour = theme.who[path.who] ?? theme.inkDark;
-  context.lineCap = "round";
-  context.lineJoin = "round";
-  if (path.fade) drawFadingLine(context, points, { colour, halo: theme.canvas, width, opacity });
-  else drawLine(context, points, { colour, halo: theme.canvas, width, opacity });
-  const end = points.at(-1);
-  if (end && !path.fade && cell > 5 * ratio) {
-    context.globalAlpha = opacity;
-    context.fillStyle = colour;
-    context.strokeStyle = theme.canvas;
-    context.lineWidth = Math.max(ratio, width * 0.35);
-    context.beginPath();
-    traceMarker(context, walker(path.who).shape, end[0], end[1], Math.max(width * 1.15, cell * 0.14));
-    context.fill();
-    context.stroke();
-  }
-  context.globalAlpha = 1;
-}
-
-/** @typedef {{colour: string, halo: string, width: number, opacity: number}} Stroke */
-
-/** @param {CanvasRenderingContext2D} context @param {(readonly [number, number])[]} points @param {Stroke} stroke */
-function drawLine(context, points, { colour, halo, width, opacity }) {
-  const line = new Path2D();
-  points.forEach(([x, y], i) => {
-    if (i === 0) line.moveTo(x, y);
-    else line.lineTo(x, y);
-  });
-  context.globalAlpha = opacity;
-  context.strokeStyle = halo;
-  context.lineWidth = width * 1.9;
-  context.stroke(line);
-  context.strokeStyle = colour;
-  context.lineWidth = width;
-  context.stroke(line);
-}
-
-/** The older a step, the paler; never wholly gone. @param {CanvasRenderingContext2D} context @param {(readonly [number, number])[]} points @param {Stroke} stroke */
-function drawFadingLine(context, points, { colour, halo, width, opacity }) {
-  const last = points.length - 1;
-  for (const [paint, size] of /** @type {const} */ ([
-    [halo, 1.8],
-    [colour, 1],
-  ])) {
-    context.strokeStyle = paint;
-    context.lineWidth = width * size;
-    for (let i = 1; i <= last; i++) {
-      const [from, to] = [points[i - 1], points[i]];
-      if (!from || !to) continue;
-      context.globalAlpha = opacity * Math.max(0.22, 1 - (last - i) / 14);
-      context.beginPath();
-      context.moveTo(from[0], from[1]);
-      context.lineTo(to[0], to[1]);
-      context.stroke();
-    }
-  }
 }
 
 /** Four arrows a square, length ∝ probability, all of one ink in one path. Above a figure they stand higher and smaller. @param {Scene} scene */

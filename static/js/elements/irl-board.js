@@ -6,11 +6,10 @@
 import { Agents } from "#js/board/agents.js";
 import { make } from "#js/board/dom.js";
 import { Effects } from "#js/board/effects.js";
-import { drawInk } from "#js/board/ink.js";
-import { drawSquares, lookOf } from "#js/board/render.js";
+import { Painter } from "#js/board/painter.js";
 import { EMPTY_VIEW } from "#js/board/state.js";
 import { figureTags } from "#js/board/tags.js";
-import { onThemeChange, theme } from "#js/board/theme.js";
+import { onThemeChange } from "#js/board/theme.js";
 import { isTaken } from "#js/lib/keys.js";
 
 /** @typedef {import("#js/board/state.js").World} World */
@@ -24,17 +23,12 @@ export class IrlBoard extends HTMLElement {
   #world = null;
   /** @type {View} */
   #view = EMPTY_VIEW;
-  /** @type {import("#js/board/render.js").Look | null} */
-  #look = null;
   #frame = 0;
-  #squaresAreOld = true;
-  #inkIsOld = true;
   #numbersHeld = false;
   #cell = 0;
   #ratio = 1;
   #stage = make("div", "board-stage");
-  #squares = /** @type {HTMLCanvasElement} */ (make("canvas", "board-squares"));
-  #ink = /** @type {HTMLCanvasElement} */ (make("canvas", "board-ink"));
+  #painter = new Painter();
   #agents = new Agents(make("div", "board-agents"));
   #effects = new Effects();
   #tags = make("div", "board-tags");
@@ -51,7 +45,7 @@ export class IrlBoard extends HTMLElement {
     this.#adopt("view");
     this.#adopt("cursor");
     if (!this.#stage.isConnected) {
-      this.#stage.append(this.#squares, this.#ink, this.#agents.layer, this.#tags, this.#effects.layer);
+      this.#stage.append(...this.#painter.canvases, this.#agents.layer, this.#tags, this.#effects.layer);
       this.#stage.setAttribute("aria-hidden", "true");
       // A clone of a board brings a copy of the other's stage along, empty as cloned canvases are.
       this.querySelector(".board-stage")?.remove();
@@ -100,11 +94,7 @@ export class IrlBoard extends HTMLElement {
   set view(view) {
     const [before, after] = [this.#view, { ...EMPTY_VIEW, ...view }];
     this.#view = after;
-    if (before.values !== after.values || before.scale !== after.scale || before.unknown !== after.unknown)
-      this.#squaresAreOld = true;
-    if (this.#squaresAreOld || before.numbers !== after.numbers || before.arrows !== after.arrows)
-      this.#inkIsOld = true;
-    if (before.visits !== after.visits || before.paths !== after.paths) this.#inkIsOld = true;
+    this.#painter.compare(before, after);
     this.#paintedAt = Number.NaN;
     this.#schedule();
   }
@@ -180,8 +170,7 @@ export class IrlBoard extends HTMLElement {
   }
 
   #redrawAll() {
-    this.#squaresAreOld = true;
-    this.#inkIsOld = true;
+    this.#painter.redrawAll();
     this.#schedule();
   }
 
@@ -197,33 +186,16 @@ export class IrlBoard extends HTMLElement {
   #paint(time) {
     const world = this.#world;
     if (!world || this.#cell === 0) return;
-    const palette = theme();
     const view = { ...this.#view, numbers: this.#view.numbers || this.#numbersHeld };
-    if (this.#squaresAreOld || !this.#look) {
-      this.#look = lookOf(world, view, palette);
-      drawSquares(this.#scene(this.#squares, world, view, this.#look));
-      this.#squaresAreOld = false;
-    }
-    if (this.#inkIsOld) {
-      drawInk(this.#scene(this.#ink, world, view, this.#look));
-      this.#inkIsOld = false;
-    }
+    this.#painter.paint(world, view, this.#geometry);
     this.#agents.place(world, view.agents, this.#cell);
     this.#placeTags(world, view);
     if (Number.isNaN(this.#paintedAt)) this.#paintedAt = time;
   }
 
-  /** @param {HTMLCanvasElement} canvas @param {World} world @param {View} view @param {import("#js/board/render.js").Look} look */
-  #scene(canvas, world, view, look) {
-    const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
-    return {
-      context,
-      world,
-      view,
-      look,
-      theme: theme(),
-      geometry: { cell: this.#cell * this.#ratio, ratio: this.#ratio },
-    };
+  /** In device pixels. */
+  get #geometry() {
+    return { cell: this.#cell * this.#ratio, ratio: this.#ratio };
   }
 
   #resize() {
@@ -240,13 +212,7 @@ export class IrlBoard extends HTMLElement {
     this.#stage.style.width = `${cell * world.cols}px`;
     this.#stage.style.height = `${cell * world.rows}px`;
     this.#stage.style.setProperty("--cell", `${cell}px`);
-    for (const canvas of [this.#squares, this.#ink]) {
-      canvas.width = Math.round(cell * ratio * world.cols);
-      canvas.height = Math.round(cell * ratio * world.rows);
-    }
-    // Setting a canvas' size wipes it: paint before the browser shows the empty one.
-    this.#squaresAreOld = true;
-    this.#inkIsOld = true;
+    this.#painter.resize(world, this.#geometry);
     if (this.isConnected) this.#paint(Number(document.timeline.currentTime));
   }
 
@@ -281,7 +247,7 @@ export class IrlBoard extends HTMLElement {
   #holdNumbers(isHeld) {
     if (this.#numbersHeld === isHeld) return;
     this.#numbersHeld = isHeld;
-    this.#inkIsOld = true;
+    this.#painter.redrawInk();
     this.#schedule();
   }
 
