@@ -86,7 +86,6 @@ PRESETS: Final = (
             "red_probability": 0.0,
             "slip": 0.1,
             "start": 36,
-            "goals": [47],
             "painted": [[square, -7.0] for square in range(37, 47)],
         },
     ),
@@ -107,7 +106,6 @@ PRESETS: Final = (
         "Two goals",
         "One goal is near and pays little. The other is far and rich.",
         {
-            "rows": 7,
             "cols": 11,
             "seed": 5,
             "red_probability": 0.15,
