@@ -103,3 +103,30 @@ def shortest_path(world: dict[str, Any], start: int, end: int) -> list[int]:
                 paths[reached] = [*paths[state], action]
                 waiting.append(reached)
     return paths[end]
+
+
+def record_of(n_steps: int, **changes: Any) -> dict[str, Any]:
+    """What a browser measured about an attempt of so many steps."""
+    return {
+        "version": 1,
+        "rt": [180.5 + step for step in range(n_steps)],
+        "device": ["key"] * n_steps,
+        "events": [
+            {"type": "blur", "at_ms": 50.0, "step": 0, "value": None},
+            {"type": "undo", "at_ms": 410.3, "step": 1, "value": 2.0},
+        ],
+        "elapsed_ms": 1234.5,
+        "abandoned": [{"n_steps": 4, "elapsed_ms": 900.0}],
+        "client": {
+            "agent": "desktop Chromium",
+            "viewport": [1280, 800],
+            "pixel_ratio": 2.0,
+            "refresh_hz": 59.9,
+            "pointer": "fine",
+            "reduced_motion": False,
+            "forced_colours": False,
+            "dark": True,
+            "totals_shown": True,
+            "hold_to_move": False,
+        },
+    } | changes

@@ -3,9 +3,11 @@
 from uuid import UUID
 
 from fastapi import APIRouter, Response
+from fastapi.responses import StreamingResponse
 
 from app.demonstrations import queries, service
 from app.demonstrations.schemas import DemonstrationIn, DemonstrationOut
+from app.demonstrations.steps import csv_chunks
 from app.dependencies import DatabaseFromApp
 from app.visitors import Visitor, VisitorOrNone
 from app.worlds.dependencies import WorldFromPath
@@ -40,6 +42,21 @@ def list_demonstrations(
     """List your attempts in this world, oldest first; discarded ones say so."""
     with database.read() as session:
         return [DemonstrationOut.of(row) for row in queries.all_with_records(session, visitor_id, world.id)]
+
+
+@router.get(
+    "/worlds/{world_id}/steps.csv",
+    summary="Take your steps away",
+    response_class=StreamingResponse,
+    responses={200: {"content": {"text/csv": {}}, "description": "The table, with a header row."}},
+)
+def export_steps(world: WorldFromPath, database: DatabaseFromApp, visitor_id: VisitorOrNone) -> StreamingResponse:
+    """Download your attempts in this world as a table with one row a step; docs/codebook.md explains its columns."""
+    return StreamingResponse(
+        csv_chunks(database, visitor_id, world),
+        media_type="text/csv; charset=utf-8; header=present",
+        headers={"Content-Disposition": f'attachment; filename="irlfr-{world.id[:8]}-steps.csv"'},
+    )
 
 
 @router.put("/demonstrations/{demonstration_id}/discard", summary="Discard an attempt")

@@ -1,6 +1,6 @@
 """What can be asked about demonstrations."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from sqlalchemy import select
 from sqlalchemy.orm import Session, undefer
@@ -36,11 +36,24 @@ def all_in_world(session: Session, visitor_id: str | None, world_id: str) -> Seq
     return session.scalars(select(Demonstration).where(*theirs).order_by(Demonstration.number)).all()
 
 
-def all_with_records(session: Session, visitor_id: str | None, world_id: str) -> Iterator[Demonstration]:
-    """Go through the same with their records, few at a time."""
-    theirs = (Demonstration.visitor_id == visitor_id, Demonstration.world_id == world_id)
-    asked = select(Demonstration).options(WITH_RECORD).where(*theirs).order_by(Demonstration.number)
-    yield from session.scalars(asked.execution_options(yield_per=8))
+def all_with_records(session: Session, visitor_id: str | None, world_id: str) -> Sequence[Demonstration]:
+    """List the same with their records."""
+    return _with_records(session, visitor_id, world_id, after=0, limit=None)
+
+
+def next_with_records(
+    session: Session, visitor_id: str | None, world_id: str, *, after: int, limit: int
+) -> Sequence[Demonstration]:
+    """List those that arrived after number `after`, at most `limit` of them, with their records."""
+    return _with_records(session, visitor_id, world_id, after=after, limit=limit)
+
+
+def _with_records(
+    session: Session, visitor_id: str | None, world_id: str, *, after: int, limit: int | None
+) -> Sequence[Demonstration]:
+    theirs = (Demonstration.visitor_id == visitor_id, Demonstration.world_id == world_id, Demonstration.number > after)
+    asked = select(Demonstration).options(WITH_RECORD).where(*theirs).order_by(Demonstration.number).limit(limit)
+    return session.scalars(asked).all()
 
 
 def kept_in_world(session: Session, visitor_id: str | None, world_id: str) -> Sequence[Demonstration]:

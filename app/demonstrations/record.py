@@ -69,7 +69,7 @@ class Client(_Part):
 class Record(_Part):
     """How an attempt was played: reaction times, devices, what happened beside the steps, on what it was played."""
 
-    version: Annotated[Literal[1], Field(description="The layout of this record.")]
+    version: Annotated[int, Field(ge=1, le=1, strict=True)] = Field(description="The layout of this record: 1.")
     rt: Annotated[list[Ms | None], FailFast()] = Field(
         max_length=MOST_STEPS,
         description="Milliseconds from the frame that showed the position before the step to the press; null: pressed"

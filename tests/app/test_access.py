@@ -27,6 +27,7 @@ EVERYBODY = {
     ("GET", "/worlds/{world_id}/learn"): (200, 200, 200),
     ("POST", "/api/v1/worlds/{world_id}/demonstrations"): (409, 200, 409),
     ("GET", "/api/v1/worlds/{world_id}/demonstrations"): (200, 200, 200),
+    ("GET", "/api/v1/worlds/{world_id}/steps.csv"): (200, 200, 200),
     ("GET", "/api/v1/worlds/{world_id}/rankings"): (200, 200, 200),
     ("GET", "/api/v1/worlds/{world_id}/runs"): (200, 200, 200),
     ("POST", "/api/v1/worlds/{world_id}/runs"): (422, 202, 202),  # each of what they have played themselves

@@ -5,7 +5,8 @@ import json
 import pytest
 from sqlalchemy import text
 
-from tests.factories import attempt, make_demonstration, make_world
+from app.worlds.schemas import WorldIn
+from tests.factories import attempt, make_demonstration, make_world, record_of
 
 MARK = "<script>alert(7)</script>"
 
@@ -108,8 +109,53 @@ def test_odd_values_in_every_field(client):
     assert after == before | {"ranking": after["ranking"]}
 
 
+RECORD_PATHS = [
+    ("version",), ("rt",), ("rt", 1), ("device",), ("device", 0), ("events",), ("events", 0), ("events", 0, "type"),
+    ("events", 0, "at_ms"), ("events", 0, "step"), ("events", 0, "value"), ("elapsed_ms",), ("abandoned",),
+    ("abandoned", 0), ("abandoned", 0, "n_steps"), ("client",), ("client", "agent"), ("client", "viewport"),
+    ("client", "viewport", 1), ("client", "pixel_ratio"), ("client", "refresh_hz"), ("client", "pointer"),
+    ("client", "dark"), ("client", "__proto__"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("path", RECORD_PATHS, ids=str)
+def test_odd_values_in_a_record_are_stored_as_they_are_or_refused(client, path):
+    world = make_world(client)
+    for value in ODD_VALUES:
+        record = replaced(record_of(2), path, value)
+        body = attempt(world, failed=True, actions=[1, 1], step_ms=[1, 1], record=record)
+        response = post_raw(client, f"/api/v1/worlds/{world['id']}/demonstrations", json.dumps(body).encode())
+        if response.status_code == 201:
+            assert response.json()["record"] == record
+        else:
+            assert_refused(response)
+    table = client.get(f"/api/v1/worlds/{world['id']}/steps.csv")
+    assert table.status_code == 200
+    assert len(table.text.splitlines()) == 1 + 2 * n_rows(client)["demonstration"]
+
+
+def test_odd_values_for_a_parent_are_refused(client):
+    world = make_world(client)
+    played = make_demonstration(client, world, failed=True)
+    good = attempt(world, failed=True, actions=[1, 1], step_ms=[1, 1], parent_id=played["id"], parent_step=1)
+    for name in ("parent_id", "parent_step"):
+        for value in ODD_VALUES:
+            body = json.dumps(good | {name: value}).encode()
+            assert_refused(post_raw(client, f"/api/v1/worlds/{world['id']}/demonstrations", body))
+    assert n_rows(client)["demonstration"] == 1
+
+
+def replaced(body, path, value):
+    """The body with another value at this path."""
+    if not path:
+        return value
+    copied = list(body) if isinstance(body, list) else dict(body)
+    copied[path[0]] = replaced(body[path[0]] if path[1:] else None, path[1:], value)
+    return copied
+
+
 def test_odd_worlds_never_break_anything(client):
-    for name in ("rows", "cols", "seed", "red_probability", "slip", "walls"):
+    for name in WorldIn.model_fields:
         for value in ODD_VALUES:
             response = post_raw(client, "/api/v1/worlds", json.dumps({"seed": 1, name: value}).encode())
             if response.status_code != 201:
