@@ -6,10 +6,11 @@ import json
 import re
 import uuid
 from pathlib import Path
+from typing import get_args
 
 import pytest
 
-from app.demonstrations.record import Record
+from app.demonstrations.record import Device, Record
 from app.demonstrations.schemas import DemonstrationOut
 from app.demonstrations.steps import ATTEMPT_COLUMNS, STEP_COLUMNS
 from irl_core import slip_direction
@@ -278,10 +279,10 @@ def test_a_text_with_commas_and_quotes_stays_one_cell(client):
 
 
 def test_a_runs_file_says_where_its_attempts_come_from(client):
-    world = make_world(client, slip=0.2)
-    parent = walk(client, world, [1, 2, 2]).json()
-    child = walk(client, world, [1, 2, 1], parent_id=parent["id"], parent_step=2).json()
-    run = client.post(f"/api/v1/worlds/{world['id']}/runs", json={"learners": ["random"]}).json()
+    world = make_world(client)
+    parent = make_demonstration(client, world)
+    child = walk(client, world, [*parent["actions"][:2], 0], parent_id=parent["id"], parent_step=2).json()
+    run = client.post(f"/api/v1/worlds/{world['id']}/runs", json={"learners": ["meirl"]}).json()
     lines = client.get(f"/api/v1/runs/{run['id']}/demonstrations.jsonl").text.splitlines()
     told = [json.loads(line) for line in lines if '"demonstration"' in line]
     assert [one["slip_seeds"] for one in told] == [parent["slip_seeds"], child["slip_seeds"]]
@@ -321,6 +322,6 @@ def fields_of(schema, part):
             yield f"{name}[]" if "items" in one and name != "viewport" else name
 
 
-@pytest.mark.parametrize("word", [*Record.model_fields["device"].annotation.__args__[0].__args__])
+@pytest.mark.parametrize("word", get_args(Device))
 def test_the_codebook_has_every_device(word):
     assert f"`{word}`" in CODEBOOK
