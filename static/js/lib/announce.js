@@ -1,4 +1,7 @@
-/** The one live region of the page (`#announcer` in base.html): what is said here is spoken, politely, once. */
+/**
+ * The one live region of the page (`#announcer` in base.html): what is said here is spoken, politely, once. What lies
+ * beneath an open dialog is not there for assistive technology, so a dialog may bring a region of its own.
+ */
 
 let pending = "";
 let timer = 0;
@@ -15,7 +18,7 @@ export function announce(sentence) {
 }
 
 function speak() {
-  const region = document.getElementById("announcer");
+  const region = document.querySelector("dialog[open] [data-announcer]") ?? document.getElementById("announcer");
   if (!region) return;
   // The same text twice is no change, hence silent; a trailing no-break space makes it new.
   region.textContent = region.textContent === pending ? `${pending}\u00a0` : pending;
