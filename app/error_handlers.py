@@ -148,7 +148,7 @@ def _name(part: str | int) -> str:
 def _sentence(error: Mapping[str, Any]) -> str:
     kind = error["type"]
     if kind in _SENTENCES:
-        return _SENTENCES[kind]
+        return _SENTENCES[kind].format_map(error.get("ctx", {}))
     if kind.startswith("uuid"):
         return "must be a UUID"
     message = str(error["msg"]).removeprefix("Value error, ").removeprefix("Input ")
@@ -170,6 +170,11 @@ _SENTENCES = {
     "string_type": "must be text",
     "string_unicode": "must be valid Unicode text",
     "list_type": "must be a list",
+    "tuple_type": "must be a list",
+    "greater_than_equal": "must be at least {ge:.16g}",
+    "less_than_equal": "must be at most {le:.16g}",
+    "too_short": "must have at least {min_length} entries",
+    "too_long": "must have at most {max_length} entries",
     "dict_type": "must be an object",
     "model_type": "must be an object",
     "model_attributes_type": "must be an object",
