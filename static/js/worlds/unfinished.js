@@ -30,12 +30,23 @@ export class Unfinished {
   /** @type {Promise<void> | null} */
   #writing = null;
   #lasts = true;
+  #quiet;
 
-  /** @param {{id: string}} world @param {{drafts?: Drafts, belongings?: Pick<Belongings, "has" | "take" | "giveBack" | "ofOthers">}} [parts] */
-  constructor(world, { drafts = storedDrafts(browserStorage), belongings = new Belongings() } = {}) {
+  /**
+   * @param {{id: string}} world
+   * @param {object} [parts]
+   * @param {Drafts} [parts.drafts]
+   * @param {Pick<Belongings, "has" | "take" | "giveBack" | "ofOthers">} [parts.belongings]
+   * @param {() => Promise<unknown>} [parts.quiet]  resolves when writing stands in nobody's way
+   */
+  constructor(
+    world,
+    { drafts = storedDrafts(browserStorage), belongings = new Belongings(), quiet = afterFrame } = {},
+  ) {
     this.#worldId = world.id;
     this.#drafts = drafts;
     this.#belongings = belongings;
+    this.#quiet = quiet;
   }
 
   /** Ready at once: the storage opens meanwhile. @param {{id: string}} world */
@@ -113,7 +124,9 @@ export class Unfinished {
   }
 
   async #write() {
-    for (const [id, draft] of this.#toWrite) {
+    while (this.#toWrite.size > 0) {
+      await this.#quiet();
+      const [[id, draft]] = this.#toWrite;
       this.#toWrite.delete(id);
       try {
         await (draft === null ? this.#drafts.delete(id) : this.#drafts.put(draft));
@@ -145,6 +158,21 @@ function storedDrafts(storage) {
     delete: (id) => storage.run(["unfinished"], "readwrite", (store) => void store("unfinished").delete(id), "relaxed"),
     all: () => storage.run(["unfinished"], "readonly", (store) => ask(store("unfinished").getAll())),
   };
+}
+
+/** After the next frame, since an attempt of 20,000 steps takes 12 ms to write; at once if the page is being closed. */
+function afterFrame() {
+  const waited = new AbortController();
+  return new Promise((resolve) => {
+    const done = () => {
+      waited.abort();
+      resolve(null);
+    };
+    requestAnimationFrame(() => setTimeout(done));
+    // No frames come while the page is hidden.
+    setTimeout(done, 100);
+    window.addEventListener("pagehide", done, { signal: waited.signal });
+  });
 }
 
 /** @param {string} text @param {string} worldId @returns {any} */
