@@ -24,7 +24,7 @@ function randomChange(plan, roll) {
   const place = () => roll(12) * 100 + roll(12);
   if (roll(6) === 0) return { ...plan, rows: 2 + roll(10), cols: 2 + roll(10) };
   const stroke = new Stroke(plan, brush(TOOLS[roll(5)], { reward: -roll(8), pay: roll(30) }), place());
-  let after = stroke.painted.plan;
+  let after = stroke.first.plan;
   for (let n = roll(4); n > 0; n--) after = stroke.moveTo(after, place()).plan;
   return stroke.end(after).plan;
 }
@@ -49,7 +49,7 @@ test("an ordinary world is its seed alone", () => {
 test("a stroke paints every square on its way", () => {
   const plan = planOf({ seed: 5 });
   const stroke = new Stroke(plan, WALL, 102);
-  const after = stroke.moveTo(stroke.painted.plan, 106).plan;
+  const after = stroke.moveTo(stroke.first.plan, 106).plan;
   assert.deepEqual(specOf(stroke.end(after).plan).walls, [9, 10, 11, 12, 13]);
   assert.deepEqual(lineOf(0, 204), [0, 101, 102, 203, 204]);
   assert.deepEqual(lineOf(0, 303), [0, 101, 202, 303]);
@@ -59,7 +59,7 @@ test("pressing again on the same square takes it back; drawing on from it does n
   const plan = paint(planOf({ seed: 5 }), WALL, [3]).plan;
   assert.deepEqual(specOf(new Stroke(plan, WALL, 3).end(plan).plan), { seed: 5 });
   const stroke = new Stroke(plan, WALL, 3);
-  const after = stroke.moveTo(stroke.painted.plan, 4).plan;
+  const after = stroke.moveTo(stroke.first.plan, 4).plan;
   assert.deepEqual(specOf(stroke.end(after).plan).walls, [3, 4]);
 });
 

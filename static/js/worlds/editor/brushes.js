@@ -6,6 +6,8 @@ import { fits, layoutOf, lineOf, placeAt, squareAt, tidyGoals, usualPay } from "
 
 export const TOOLS = /** @type {const} */ (["wall", "paint", "goal", "start", "erase", "pick"]);
 const MOST_GOALS = 100;
+/** Tools whose work a second press takes back. */
+const TAKEN_BACK = new Set(["wall", "paint", "goal"]);
 
 /** @typedef {typeof TOOLS[number]} Tool */
 /** @typedef {{tool: Tool, reward: number, pay: number}} Brush   what it paints, and what a goal pays */
@@ -28,14 +30,18 @@ export class Stroke {
   #brush;
   #last;
   #isSingle = true;
-  #hasChanged;
 
   /** @param {Plan} plan @param {Brush} brush @param {number} place */
   constructor(plan, brush, place) {
     this.#brush = brush;
     this.#last = place;
-    this.painted = paint(plan, brush, [place]);
-    this.#hasChanged = this.painted.plan !== plan;
+    this.before = plan;
+    this.first = paint(plan, brush, [place]);
+  }
+
+  /** The place where the brush is. */
+  get last() {
+    return this.#last;
   }
 
   /** Draw on to another place. @param {Plan} plan @param {number} place @returns {Painted} */
@@ -49,8 +55,8 @@ export class Stroke {
 
   /** Pressed where it was so already, and lifted at once: taken back. @param {Plan} plan @returns {Painted} */
   end(plan) {
-    const isTakenBack = this.#isSingle && !this.#hasChanged && this.painted.refusal === "";
-    if (!isTakenBack || this.#brush.tool === "start" || this.#brush.tool === "pick") return { plan, refusal: "" };
+    const wasSo = this.#isSingle && this.first.plan === this.before && this.first.refusal === "";
+    if (!wasSo || !TAKEN_BACK.has(this.#brush.tool)) return { plan, refusal: "" };
     return paint(plan, { ...this.#brush, tool: "erase" }, [this.#last]);
   }
 }

@@ -147,6 +147,11 @@ export function fits({ rows, cols }, place) {
   return Math.floor(place / SHEET) < rows && place % SHEET < cols;
 }
 
+/** The square of a place, or the one nearest to it that fits. @param {{rows: number, cols: number}} size @param {number} place */
+export function nearestSquare({ rows, cols }, place) {
+  return Math.min(Math.floor(place / SHEET), rows - 1) * cols + Math.min(place % SHEET, cols - 1);
+}
+
 /** The places from one to another, both included, so that a fast hand leaves no gaps. @param {number} from @param {number} to */
 export function lineOf(from, to) {
   const [row, col] = [Math.floor(from / SHEET), from % SHEET];
