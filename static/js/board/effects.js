@@ -1,4 +1,4 @@
-/** What passes over a board: a cost that floats up, a bump against a wall, the joy at a goal, and the look-around cursor. */
+/** What passes over a board: a cost that floats up, a bump against a wall, the joy at a goal, the look-around cursor, the frame of a close-up. */
 
 import { make, makeSvg, prefersStill } from "#js/board/dom.js";
 import { DELTAS, placeOf } from "#js/board/state.js";
@@ -17,6 +17,7 @@ export class Effects {
   #bump = make("div", "board-bump");
   #joy = makeJoy();
   #cursor = make("div", "board-cursor");
+  #frame = make("div", "board-frame");
   /** @type {WeakMap<Element, Animation>} */
   #running = new WeakMap();
 
@@ -66,6 +67,14 @@ export class Effects {
   pointAt(world, state) {
     if (state === null) this.#cursor.remove();
     else this.#put(this.#cursor, world, state);
+  }
+
+  /** @param {World} world @param {import("#js/board/crop.js").Window | null} window */
+  frame(world, window) {
+    if (window === null) return this.#frame.remove();
+    this.#frame.style.setProperty("--rows", String(window.rows));
+    this.#frame.style.setProperty("--cols", String(window.cols));
+    this.#put(this.#frame, world, window.top * world.cols + window.left);
   }
 
   /** @param {HTMLElement | SVGElement} element @param {World} world @param {number} state */

@@ -136,7 +136,8 @@ function drawWalls({ context, geometry, world, theme }) {
 /** @param {Scene} scene */
 function drawStart({ context, geometry, world, look, theme }) {
   const { cell, ratio } = geometry;
-  if (cell < 3) return;
+  const isElsewhere = world.start < 0; // in a close-up
+  if (cell < 3 || isElsewhere) return;
   const [row, col] = placeOf(world, world.start);
   context.strokeStyle = look.isDark[world.start] ? theme.inkDark : theme.inkLight;
   context.lineWidth = Math.max(ratio, cell * 0.045);

@@ -80,9 +80,11 @@ export class IrlBoard extends HTMLElement {
     this.#world = world;
     if (world) this.style.setProperty("--board-ratio", `${world.cols} / ${world.rows}`);
     this.cursor = null;
+    this.frame = null;
     this.#resize();
     this.#paintedAt = Number.NaN;
     this.#redrawAll();
+    this.#tell();
   }
 
   /** @returns {View} */
@@ -97,6 +99,7 @@ export class IrlBoard extends HTMLElement {
     this.#painter.compare(before, after);
     this.#paintedAt = Number.NaN;
     this.#schedule();
+    this.#tell();
   }
 
   /**
@@ -115,6 +118,16 @@ export class IrlBoard extends HTMLElement {
   set cursor(state) {
     this.#cursor = state;
     if (this.#world) this.#effects.pointAt(this.#world, state);
+  }
+
+  /** The squares that a close-up shows, or null. @param {import("#js/board/crop.js").Window | null} window */
+  set frame(window) {
+    if (this.#world) this.#effects.frame(this.#world, window);
+  }
+
+  /** Side of a square in CSS pixels; 0 before there is room for one. */
+  get cell() {
+    return this.#cell;
   }
 
   get label() {
@@ -169,6 +182,11 @@ export class IrlBoard extends HTMLElement {
     /** @type {any} */ (this)[name] = value;
   }
 
+  /** World, view or size are others: whoever shows a part of this board draws it in the same frame. */
+  #tell() {
+    this.dispatchEvent(new Event("board:changed"));
+  }
+
   #redrawAll() {
     this.#painter.redrawAll();
     this.#schedule();
@@ -214,6 +232,7 @@ export class IrlBoard extends HTMLElement {
     this.#stage.style.setProperty("--cell", `${cell}px`);
     this.#painter.resize(world, this.#geometry);
     if (this.isConnected) this.#paint(Number(document.timeline.currentTime));
+    this.#tell();
   }
 
   /** @param {World} world @param {View} view */
