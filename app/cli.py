@@ -53,6 +53,7 @@ def serve(
             create_app(settings),
             log_level="warning",
             server_header=False,
+            h11_max_incomplete_event_size=settings.max_body_bytes,  # so that we can say that an address is too long
             timeout_graceful_shutdown=2,  # an open stream would hold a stop forever
         )
     )
