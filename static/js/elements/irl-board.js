@@ -16,6 +16,8 @@ import { isTaken } from "#js/lib/keys.js";
 /** @typedef {import("#js/board/state.js").View} View */
 
 const SMALLEST_WHOLE_CELL = 4;
+/** On squares smaller than this (CSS pixels) the agent is drawn larger than its square. */
+const FINE_CELL = 14;
 
 export class IrlBoard extends HTMLElement {
   #life = new AbortController();
@@ -230,6 +232,7 @@ export class IrlBoard extends HTMLElement {
     this.#stage.style.width = `${cell * world.cols}px`;
     this.#stage.style.height = `${cell * world.rows}px`;
     this.#stage.style.setProperty("--cell", `${cell}px`);
+    this.#stage.dataset.isFine = String(cell < FINE_CELL);
     this.#painter.resize(world, this.#geometry);
     if (this.isConnected) this.#paint(Number(document.timeline.currentTime));
     this.#tell();
