@@ -41,10 +41,10 @@ def main() -> int:
     return 0 if worst(rows) <= TOLERANCE else 1
 
 
-def journey(address: str, *, seed: int | None = None, size: int = 7) -> list[Row]:
-    """Walk the whole path; return what was compared."""
+def journey(address: str, *, seed: int | None = None, size: int = 7, **more: Any) -> list[Row]:
+    """Walk the whole path; return what was compared. `more` is what else the world is made from."""
     client = Client(address)
-    spec: Json = {"rows": size, "cols": size} | ({} if seed is None else {"seed": seed})
+    spec: Json = {"rows": size, "cols": size} | ({} if seed is None else {"seed": seed}) | more
     world = client.post("/worlds", spec)
     grid = Grid(world)
     successes, failures = play(client, grid, world["id"])
