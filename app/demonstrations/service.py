@@ -26,10 +26,10 @@ async def record(
     database: Database, visitor_id: str, world: StoredWorld, told: DemonstrationIn
 ) -> tuple[Demonstration, bool]:
     """Store an attempt once. Returns it and whether it is new; Conflict if the id tells another story."""
-    _check_lengths(told)
-    slip_seeds = (
-        await to_thread.run_sync(_seeds_from_parent, database, visitor_id, world, told) if told.parent_id else None
-    )
+    check_lengths(told)
+    slip_seeds = None
+    if told.parent_id is not None:
+        slip_seeds = await to_thread.run_sync(_seeds_from_parent, database, visitor_id, world, told)
     columns = convert.simulated_columns(world, told, slip_seeds=slip_seeds) | {"visitor_id": visitor_id}
 
     def store(session: Session) -> tuple[Demonstration, bool]:
@@ -44,7 +44,7 @@ async def record(
     return await database.write_soon(store)
 
 
-def _check_lengths(told: DemonstrationIn) -> None:
+def check_lengths(told: DemonstrationIn) -> None:
     """Check that there is one of everything for each step, and that a parent is named wholly or not at all."""
     lists: dict[str, list[Any]] = {"step_ms": told.step_ms}
     if told.record is not None:
@@ -60,12 +60,16 @@ def _check_lengths(told: DemonstrationIn) -> None:
 def _seeds_from_parent(
     database: Database, visitor_id: str, world: StoredWorld, told: DemonstrationIn
 ) -> list[tuple[str, int]]:
-    """Return by which seeds the steps slip: the copied ones as in the parent, then by the attempt's own id."""
-    parent_id, k = told.parent_id or "", told.parent_step or 0
     with database.read() as session:
-        parent = queries.find_parent(session, visitor_id, world.id, parent_id)
+        parent = queries.find_parent(session, visitor_id, world.id, told.parent_id or "")
     if parent is None:
         _refuse("parent_id", "You have no such attempt in this world, so none can go on from it.")
+    return seeds_after(parent, world, told)
+
+
+def seeds_after(parent: Demonstration, world: StoredWorld, told: DemonstrationIn) -> list[tuple[str, int]]:
+    """Return by which seeds the steps slip: the copied ones as in the parent, then by the attempt's own id."""
+    k = told.parent_step or 0
     if k > len(parent.actions) or parent.states[k] in world.world.goals:
         _refuse("parent_step", f"The attempt to go on from is over, or was never, after {k} steps.")
     if told.actions[:k] != parent.actions[:k]:
