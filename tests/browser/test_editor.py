@@ -255,7 +255,7 @@ def test_an_impossible_address_opens_with_what_could_be_read(page: Page) -> None
     page.goto("/worlds/new?rows=1&seed=5&walls=3,4&slip=0.2")
     expect(page.locator("#notice")).to_contain_text("rows must be a whole number from 2 to 100")
     expect(page.locator("#rows")).to_have_attribute("aria-invalid", "true")
-    expect(page.locator("#rows-problem")).to_contain_text("from 2 to 100")
+    expect(page.locator("#rows-problem")).to_have_text("A world has 2 to 100 rows.")
     expect(page.locator("#slip")).to_have_value("20")
     assert world_on(page)["walls"] == [3, 4]
     expect(verdict(page)).to_contain_text("A success is possible")

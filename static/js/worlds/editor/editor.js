@@ -168,6 +168,7 @@ class EditorPage {
     if (!this.#problem) this.#address.show(spec, query);
     const world = this.#answer?.query === query ? this.#answer.world : this.#ground.draw(plan);
     this.#easel.show(world);
+    this.#board.label = `The world you are making: ${plan.rows} by ${plan.cols} squares.`;
     byId("editor").style.setProperty("--world-ratio", String(plan.cols / plan.rows));
     this.#tools.fit(plan);
     this.#fields.show(Object.fromEntries(Object.entries(NUMBERS).map(([name, key]) => [name, plan[key]])));

@@ -49,7 +49,9 @@ export class Fields {
   /** What the server says of fields; an empty record takes it all back. @param {Record<string, string>} problems */
   tell(problems) {
     for (const [name, field] of this.#fields) {
-      field.told = problems[name] ?? "";
+      const told = problems[name] ?? "";
+      // "rows must be …" speaks of the address; here the field's own words (and percent) are the clearer ones.
+      field.told = told.startsWith(`${name} `) ? RULES[name].sentence : told;
       showProblem(field);
     }
   }
