@@ -1,6 +1,7 @@
 """Worlds of one's own: another start, other goals, painted squares, limits."""
 
 import json
+from typing import Any
 
 import gymnasium
 import numpy as np
@@ -22,7 +23,14 @@ from irl_core.environment import ENVIRONMENT_ID
 from irl_core.picture import draw_world
 from tests.core.examples import DOWN, LEFT, RIGHT, UP
 
-OWN = {"rows": 5, "cols": 6, "start": 14, "goals": (24, 5), "walls": (8, 21), "painted": {24: 20.0, 9: -6.0}}
+OWN: dict[str, Any] = {
+    "rows": 5,
+    "cols": 6,
+    "start": 14,
+    "goals": (24, 5),
+    "walls": (8, 21),
+    "painted": {24: 20.0, 9: -6.0},
+}
 
 
 @given(seed=st.integers(0, 2**53 - 1), red=st.floats(0, 1), data=st.data())
@@ -58,7 +66,8 @@ def test_every_goal_pays_as_many_as_there_are_rows_and_columns_unless_it_is_pain
 
 
 def test_a_painted_minus_zero_is_zero():
-    world = generate_world(5, painted={3: -0.0, np.int64(4): np.float64(-1.5)})
+    painted: Any = {3: -0.0, np.int64(4): np.float64(-1.5)}
+    world = generate_world(5, painted=painted)
     assert str(world.reward[3]) == "0.0"
     assert world.reward[4] == -1.5
     assert json.loads(json.dumps(world.to_json()))["rewards"][0][4] == -1.5
@@ -89,6 +98,7 @@ def test_a_drawn_world_keeps_what_was_asked_for():
     assert success_is_possible(world)
     asked = {"start": 14, "goals": (24, 5), "walls": (8, 21), "horizon": 30, "time_limit_s": 20, "slip": 0.1}
     assert {name: getattr(world, name) for name in asked} == asked
+    assert world.seed is not None
     again = generate_world(world.seed, **OWN, slip=0.1, step_limit=30, time_limit_s=20, red_probability=0.6)
     assert world == again
 
