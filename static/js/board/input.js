@@ -9,7 +9,7 @@ import { isCovered, isTaken, letterOf } from "#js/lib/keys.js";
 
 /**
  * @typedef {object} Player
- * @property {(action: number, press: Press) => boolean | void} move   false: nothing moves any more, a held key stops
+ * @property {(action: number, press: Press) => boolean | void} move   false: a held key stops here
  * @property {(command: Command) => void} command
  * @property {(direction: number) => void} look       look around without moving
  */
