@@ -1,7 +1,7 @@
 /** The practice on the page: a dialog with a board of its own, and the card that offers it to somebody new. */
 
 import "#js/elements/irl-board.js";
-import { describePosition } from "#js/board/describe.js";
+import { describePosition, describeSquare, describeWay } from "#js/board/describe.js";
 import { facingOf } from "#js/board/facing.js";
 import { listenToKeys, listenToPointer } from "#js/board/input.js";
 import { outcomeOf, stateOf, totalOf } from "#js/board/moves.js";
@@ -95,8 +95,9 @@ class Practice {
 
   /** @param {number} direction */
   look(direction) {
-    const there = nextState(PRACTICE_WORLD, stateOf(this.#lesson.attempt), direction);
-    announce(describePosition(PRACTICE_WORLD, there));
+    const from = this.#board.cursor ?? stateOf(this.#lesson.attempt);
+    this.#board.cursor = nextState(PRACTICE_WORLD, from, direction);
+    announce(describeSquare(PRACTICE_WORLD, this.#board.cursor));
   }
 
   /** @param {import("#js/board/input.js").Command} command */
@@ -104,6 +105,7 @@ class Practice {
     const lesson = this.#lesson;
     if (command === "again") return this.#goOn();
     if (command === "sound") return this.#feedback?.toggleSound();
+    if (command === "where") return this.#speak("", describeWay(PRACTICE_WORLD, stateOf(lesson.attempt)));
     if (command === "giveUp" && lesson.canGiveUp) {
       lesson.giveUp();
       this.#show();
@@ -136,6 +138,7 @@ class Practice {
   #show() {
     const { attempt, part, words, next, canGiveUp } = this.#lesson;
     const state = stateOf(attempt);
+    this.#board.cursor = null;
     this.#board.view = {
       numbers: true,
       paths: [{ states: [...attempt.states], who: "human", width: 0.35, fade: attempt.ending === null }],
@@ -157,9 +160,9 @@ class Practice {
     for (const pad of this.#all("[data-practice-move]")) pad.ariaDisabled = String(next !== null);
   }
 
-  /** @param {string} before */
-  #speak(before) {
-    announce(before + describePosition(PRACTICE_WORLD, stateOf(this.#lesson.attempt)));
+  /** @param {string} before @param {string} [after] */
+  #speak(before, after = "") {
+    announce(`${before}${describePosition(PRACTICE_WORLD, stateOf(this.#lesson.attempt))} ${after}`.trim());
   }
 
   /** @param {MouseEvent} event */
