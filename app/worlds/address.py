@@ -40,6 +40,13 @@ class WorldQuery:
     asks_for_a_world: bool
 
     @property
+    def problem(self) -> str:
+        """What is wrong, for people; empty if nothing is."""
+        if "query" in self.problems or not self.problems:
+            return self.problems.get("query", "")
+        return f"This address describes no world: {'; '.join(one.rstrip('.') for one in self.problems.values())}."
+
+    @property
     def to_mend(self) -> str:
         """The address of the editor with all this in it, to be mended there."""
         return "/worlds/new" if len(self.text) > LONGEST else f"/worlds/new?{self.text}"

@@ -35,7 +35,7 @@ def create(database: Database, visitor_id: str, parameters: WorldIn) -> StoredWo
 def imagine(query: WorldQuery) -> StoredWorld:
     """Generate the world an address asks for and store nothing."""
     if query.problems:
-        raise ImpossibleWorld(" ".join(query.problems.values()), fields=query.problems, mend_at=query.to_mend)
+        raise ImpossibleWorld(query.problem, fields=query.problems, mend_at=query.to_mend)
     try:
         return convert.generate(query.to_world_in())
     except InvalidWorld as error:
