@@ -148,7 +148,7 @@ function directionsOf({ buttons, stick }) {
 /** The gamepad's own time of the press; some report none, or count from elsewhere. @param {Gamepad} pad */
 function timeOf({ timestamp }) {
   const now = performance.now();
-  return timestamp <= now && timestamp > now - OLDEST_MS ? timestamp : now;
+  return timestamp > 0 && timestamp <= now && timestamp > now - OLDEST_MS ? timestamp : now;
 }
 
 /** @returns {Gamepad[]} */
