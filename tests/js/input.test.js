@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import test, { mock } from "node:test";
 import { Hold } from "#js/board/hold.js";
-import { actionOf, commandOf, listenToKeys } from "#js/board/input.js";
+import { actionOf, commandOf, listenToKeys, listenToPointer } from "#js/board/input.js";
 
 const [UP, RIGHT, DOWN, LEFT] = [0, 1, 2, 3];
 
@@ -166,4 +166,49 @@ test("of two held directions the latest leads, and the first takes over again", 
     repeat.mock.calls.map((call) => call.arguments[0]),
     [DOWN, RIGHT],
   );
+});
+
+/** A finger or a mouse on a board whose every point is square 5. */
+function pointing(pointerType) {
+  const told = [];
+  const board = Object.assign(new EventTarget(), { stateAt: () => 5 });
+  const player = {
+    move: (action, { when, device }) => told.push([device, action, when]),
+    tap: (state, { when, device }) => told.push([device, state, when]),
+  };
+  listenToPointer(board, player, new AbortController().signal);
+  const send = (type, x, y) => {
+    const about = { pointerType, pointerId: 1, isPrimary: true, button: 0, clientX: x, clientY: y };
+    const event = Object.assign(new Event(type), about);
+    board.dispatchEvent(event);
+    return event.timeStamp;
+  };
+  return { told, send };
+}
+
+test("a swipe is one step, in the direction and at the time it became clear", () => {
+  const { told, send } = pointing("touch");
+  send("pointerdown", 100, 100);
+  send("pointermove", 110, 102);
+  const when = send("pointermove", 128, 104);
+  send("pointermove", 190, 104);
+  send("pointerup", 190, 104);
+  assert.deepEqual(told, [["swipe", RIGHT, when]]);
+});
+
+test("a finger that is lifted where it lay, and a click, are taps", () => {
+  for (const pointerType of ["touch", "mouse"]) {
+    const { told, send } = pointing(pointerType);
+    send("pointerdown", 100, 100);
+    const when = send("pointerup", 103, 98);
+    assert.deepEqual(told, [["tap", 5, when]]);
+  }
+});
+
+test("a touch that the browser takes for something else is nothing", () => {
+  const { told, send } = pointing("touch");
+  send("pointerdown", 100, 100);
+  send("pointercancel", 100, 100);
+  send("pointerup", 100, 100);
+  assert.deepEqual(told, []);
 });
