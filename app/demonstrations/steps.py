@@ -7,7 +7,7 @@ on to memory or to the database.
 import csv
 import io
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from app.db import Database
@@ -36,24 +36,24 @@ Cell = str | int | float | bool | None
 def csv_chunks(database: Database, visitor_id: str | None, world: StoredWorld) -> Iterator[str]:
     """Write the table piece by piece; the header comes even where there is no row."""
     yield _written([ATTEMPT_COLUMNS + STEP_COLUMNS])
+    colours = [colour for row in world.world.colours for colour in row]
     n_before, last = 0, 0
     while True:
         with database.read() as session:
             attempts = queries.next_with_records(session, visitor_id, world.id, after=last, limit=AT_A_TIME)
         for n, attempt in enumerate(attempts, start=n_before + 1):
-            yield _written(rows_of(world, attempt, n))
+            yield _written(_rows(world, colours, attempt, n))
         if len(attempts) < AT_A_TIME:
             return
         n_before, last = n_before + len(attempts), attempts[-1].number
 
 
-def rows_of(world: StoredWorld, attempt: Demonstration, n: int) -> Iterator[list[Cell]]:
+def _rows(world: StoredWorld, colours: Sequence[str], attempt: Demonstration, n: int) -> Iterator[list[Cell]]:
     """Tell an attempt, the visitor's n-th in this world, step by step."""
     about_it = _attempt_cells(attempt, n)
     record = attempt.record or {}
     times, devices = attempt.step_ms or [], record.get("device", [])
     happened = Counter((event["type"], event["step"]) for event in record.get("events", ()))
-    colours = [colour for row in world.world.colours for colour in row]
     for t, direction in enumerate(directions_taken(attempt, world.world.slip)):
         state, reached = attempt.states[t], attempt.states[t + 1]
         place = divmod(state, world.world.cols)

@@ -13,8 +13,9 @@ import pytest
 from app.demonstrations.record import Device, Record
 from app.demonstrations.schemas import DemonstrationOut
 from app.demonstrations.steps import ATTEMPT_COLUMNS, STEP_COLUMNS
+from app.main import create_app
 from irl_core import slip_direction
-from tests.conftest import open_client
+from tests.conftest import make_settings, open_client
 from tests.factories import (
     attempt,
     best_path,
@@ -287,6 +288,13 @@ def test_a_runs_file_says_where_its_attempts_come_from(client):
     told = [json.loads(line) for line in lines if '"demonstration"' in line]
     assert [one["slip_seeds"] for one in told] == [parent["slip_seeds"], child["slip_seeds"]]
     assert [one.get("parent_id") for one in told] == [None, parent["id"]]
+
+
+def test_a_study_decides_whether_totals_are_shown_and_held_keys_move(settings):
+    told = make_settings(settings.data_dir, show_totals=False, hold_to_move=True)
+    with open_client(create_app(told)) as client:
+        (island,) = re.findall(r'id="page-data"[^>]*>(.*?)</script>', client.get("/").text, re.DOTALL)
+        assert json.loads(island)["options"] == {"show_totals": False, "hold_to_move": True}
 
 
 def section(title):

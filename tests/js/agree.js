@@ -122,11 +122,11 @@ class Player {
     if (!this.#session.resume(draft, this.#now, 1000)) throw new Error("An unfinished attempt could not go on.");
   }
 
-  /** Try again from some step of some attempt that is finished. */
+  /** Try again from some step, often the last, of some attempt that is finished. */
   #branch() {
     const parent = this.#entries[this.#pick(this.#entries.length)];
     if (!parent) return;
-    const k = 1 + this.#pick(parent.actions.length);
+    const k = this.#pick(3) === 0 ? parent.actions.length : 1 + this.#pick(parent.actions.length);
     if (canBranch(this.#world, parent, k)) this.#session.beginFrom(parent, k, this.#now);
   }
 
