@@ -13,14 +13,14 @@ test("saved, saving, offline, busy and in memory alone have each a badge", () =>
   assert.equal(words({ nAttempts: 0, nWishes: 2 }).badge, "saving 2 changes …");
   assert.equal(words({ isOnline: false }).sync, "offline");
   const gone = words({ nAttempts: 3, trouble: { status: 0, retryAfterMs: null } });
-  assert.equal(gone.badge, "offline: 3 attempts kept here");
-  assert.match(gone.sentence, /even if you close the page/);
+  assert.equal(gone.badge, "offline: 3 attempts kept");
+  assert.match(gone.sentence, /kept in this browser and sent later/);
   const busy = words({ trouble: { status: 503, retryAfterMs: 20_000 } });
   assert.equal(busy.sync, "busy");
   assert.match(busy.sentence, /^The server is busy and asked for 20 s\. .* sends it again then\.$/);
   assert.match(words({ trouble: { status: 500, retryAfterMs: null } }).sentence, /wrong on the server/);
   const memory = words({ nUnstored: 1, trouble: { status: 0, retryAfterMs: null } });
-  assert.equal(memory.badge, "1 attempt: keep this page open");
+  assert.equal(memory.badge, "keep this page open");
   assert.match(memory.sentence, /storage is full or closed/);
 });
 

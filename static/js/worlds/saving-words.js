@@ -19,13 +19,12 @@ export function savingWords(saving) {
   if (nAttempts + nWishes === 0) return { sync: "saved", badge: "✓ all saved", sentence: "" };
   const what = nAttempts > 0 ? plural(nAttempts, "attempt") : plural(nWishes, "change");
   const it = nAttempts + nWishes === 1 ? "it" : "them";
-  if (nUnstored > 0)
-    return { sync: "memory", badge: `${what}: keep this page open`, sentence: unstoredSentence(saving) };
+  if (nUnstored > 0) return { sync: "memory", badge: "keep this page open", sentence: unstoredSentence(saving) };
   if (trouble === null && isOnline) return { sync: "waiting", badge: `saving ${what} …`, sentence: "" };
   const isBusy = isOnline && trouble !== null && trouble.status > 0;
-  if (isBusy) return { sync: "busy", badge: `${what} kept here`, sentence: busySentence(trouble, it) };
-  const sentence = `The server cannot be reached just now. What you play is kept in this browser and sent by itself later, even if you close the page.`;
-  return { sync: "offline", badge: `offline: ${what} kept here`, sentence };
+  if (isBusy) return { sync: "busy", badge: `busy: ${what} kept`, sentence: busySentence(trouble, it) };
+  const sentence = `The server cannot be reached. What you play is kept in this browser and sent later by itself.`;
+  return { sync: "offline", badge: `offline: ${what} kept`, sentence };
 }
 
 /** @param {Saving} saving */
