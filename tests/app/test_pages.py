@@ -11,6 +11,7 @@ from app.error_handlers import ErrorPage
 from app.pages import PathState, path_state
 from app.rankings.pages import RankPage
 from app.templating import MissingAssets, Pages, page_data
+from app.worlds.pages import EditorPage
 from tests.factories import make_demonstration, make_ranking, make_world
 
 
@@ -102,7 +103,7 @@ def test_a_page_that_is_not_there_is_a_page(client):
 
 
 def test_every_field_of_a_page_explains_itself():
-    for page in (PlayPage, RankPage, ErrorPage, PathState):
+    for page in (PlayPage, EditorPage, RankPage, ErrorPage, PathState):
         assert all(field.metadata.get("help") for field in dataclasses.fields(page)), page
 
 
