@@ -70,8 +70,7 @@ class EditorPage {
   #easel = new Easel(this.#board, new Hand(this));
   #presets = new Presets({ list: byId("presets"), words: byId("preset-text"), presets: this.#data.presets });
   #fields = new Fields(/** @type {(keyof typeof NUMBERS)[]} */ (Object.keys(NUMBERS)), {
-    set: (name, value) =>
-      this.change({ ...this.plan, [NUMBERS[/** @type {keyof typeof NUMBERS} */ (name)]]: value }, name),
+    set: (name, value) => this.#set(NUMBERS[/** @type {keyof typeof NUMBERS} */ (name)], value),
     end: () => this.settle(),
     refuse: announce,
   });
@@ -120,6 +119,7 @@ class EditorPage {
     this.#history.change(plan, gesture);
     this.#forgetProblem();
     this.#show();
+    if (gesture === null) this.settle();
   }
 
   /** A stroke or a pull on a slider is over. */
@@ -159,6 +159,11 @@ class EditorPage {
     announce(sentence);
   }
 
+  /** @param {keyof Plan} key @param {number | null} value */
+  #set(key, value) {
+    if (this.plan[key] !== value) this.change({ ...this.plan, [key]: value }, key);
+  }
+
   #show() {
     const plan = this.plan;
     const spec = specOf(plan);
@@ -175,7 +180,7 @@ class EditorPage {
     this.#presets.show(query);
     const nSteps = shortestWay(world);
     this.#report.showFacts(plan, nSteps);
-    this.#sharing.show();
+    this.#sharing.forget();
     /** @type {HTMLButtonElement} */ (byId("undo")).disabled = !this.#history.canUndo;
     /** @type {HTMLButtonElement} */ (byId("redo")).disabled = !this.#history.canRedo;
     if (isNew || !this.#answer) this.#ask(query, nSteps);

@@ -21,7 +21,7 @@ export class Ground {
     const origin = [world.rows, world.cols, world.seed, world.red_probability].join();
     if (origin !== this.#origin) this.#rewards.clear();
     this.#origin = origin;
-    const isCovered = new Set([...world.goals, ...world.walls, ...(world.spec?.painted ?? []).map(([at]) => at)]);
+    const isCovered = new Set([...world.goals, ...(world.spec?.painted ?? []).map(([at]) => at)]);
     world.rewards.flat().forEach((reward, square) => {
       if (!isCovered.has(square)) this.#rewards.set(placeAt(world, square), reward);
     });

@@ -34,9 +34,14 @@ export class Sharing {
     byId("share").addEventListener("click", onHeaderShare, { capture: true, signal });
   }
 
+  /** The world is another: what was told of the last one no longer holds. */
+  forget() {
+    this.#told.hidden = true;
+    this.show();
+  }
+
   /** Impossible worlds cannot be played; the verdict says why. */
   show() {
-    this.#told.hidden = true;
     if (this.#report.state === "refused") disableLink(this.#play);
     else enableLink(this.#play, this.#address.playAddress ?? "/worlds");
   }
