@@ -38,7 +38,7 @@
 
 /**
  * @typedef {object} Path
- * @property {number[]} states
+ * @property {readonly number[]} states
  * @property {string} who
  * @property {number} [width]        0…1
  * @property {number} [opacity]      0…1

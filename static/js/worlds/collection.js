@@ -3,6 +3,7 @@
 import { announce } from "#js/lib/announce.js";
 import { byId } from "#js/lib/dom.js";
 import { openOutbox } from "#js/lib/outbox.js";
+import { isRefused } from "#js/lib/parcels.js";
 import { disableLink, enableLink, setStep, showCounts } from "#js/lib/path.js";
 import { AttemptStrip } from "#js/worlds/attempt-strip.js";
 import { bodyOf, entryOfAttempt, entryOfDemonstration, entryOfParcel, fileOf } from "#js/worlds/entries.js";
@@ -56,19 +57,19 @@ export class Collection {
     this.#show();
     for (const parcel of await this.#outbox.all()) if (this.#isOfThisWorld(parcel)) this.#takeIn(parcel);
     this.#show();
-    this.#badge.start(signal);
     this.#outbox.watch(signal);
   }
 
-  /** Keep a finished attempt and send it. @param {Attempt} attempt @param {unknown} [record] */
-  add(attempt, record) {
+  /** Keep a finished attempt and send it. @param {Attempt} attempt @param {unknown} [record] @returns {Promise<boolean>} whether it is in the storage by now */
+  async add(attempt, record) {
     this.#entries.push(entryOfAttempt(attempt));
     const { id, slipSeeds } = attempt;
     const parcel = { id, worldId: this.#world.id, world: { ...this.#spec }, body: bodyOf(attempt, record), slipSeeds };
     this.#badge.wait(parcel);
     this.#outdateOrder();
     this.#show();
-    void this.#outbox.add(parcel);
+    await this.#outbox.add(parcel);
+    return this.#outbox.nUnstored === 0;
   }
 
   /** @param {string} id */
@@ -102,7 +103,7 @@ export class Collection {
 
   /** A parcel of an earlier visit, or of another tab. @param {Parcel} parcel */
   #takeIn(parcel) {
-    if (parcel.refusal === null) this.#badge.wait(parcel);
+    if (!isRefused(parcel)) this.#badge.wait(parcel);
     if (parcel.kind === "discard") {
       const entry = this.entry(parcel.attemptId);
       if (entry) Object.assign(entry, { discarded: parcel.discarded, note: null });

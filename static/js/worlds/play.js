@@ -1,153 +1,199 @@
 /** The play page: keys move the agent in the browser; what is finished goes to the server by itself. An entry script. */
 
 import "#js/elements/irl-board.js";
-import { describePosition } from "#js/board/describe.js";
+import { describePosition, describeSquare, describeWay } from "#js/board/describe.js";
 import { facingOf } from "#js/board/facing.js";
 import { listenToKeys, listenToPointer } from "#js/board/input.js";
-import { beginAttempt, giveUp, lastStep, outcomeOf, stateOf, step, totalOf, undo } from "#js/board/moves.js";
-import { Replay } from "#js/board/replay.js";
-import { DIRECTIONS, nextState } from "#js/board/state.js";
+import { outcomeOf, totalOf } from "#js/board/moves.js";
+import { DELTAS, DIRECTIONS, nextState, placeOf } from "#js/board/state.js";
 import { announce } from "#js/lib/announce.js";
 import { byId } from "#js/lib/dom.js";
-import { number, plural, signed } from "#js/lib/format.js";
+import { number, signed } from "#js/lib/format.js";
 import { pageData } from "#js/lib/page-data.js";
-import { keepAttempt, keptAttempt } from "#js/worlds/checkpoint.js";
+import { uuid } from "#js/lib/uuid.js";
+import { noteAttention } from "#js/worlds/attention.js";
+import { Client } from "#js/worlds/client.js";
 import { Collection } from "#js/worlds/collection.js";
 import { Feedback } from "#js/worlds/feedback.js";
 import { listenToGamepad } from "#js/worlds/gamepad.js";
+import { LeftBehind } from "#js/worlds/left-behind.js";
 import { startOptions } from "#js/worlds/options.js";
 import { offerPractice, startPractice } from "#js/worlds/practice.js";
+import { toQuery } from "#js/worlds/query.js";
+import { ReplayBar } from "#js/worlds/replay-bar.js";
+import { Scoreboard } from "#js/worlds/scoreboard.js";
 import { finishSentence } from "#js/worlds/sentences.js";
+import { PlaySession } from "#js/worlds/session.js";
+import { Surroundings } from "#js/worlds/surroundings.js";
 
-/** @typedef {import("#js/board/moves.js").Attempt} Attempt */
+/** @typedef {import("#js/board/input.js").Press} Press */
+/** @typedef {import("#js/board/input.js").Command} Command */
 /** @typedef {import("#js/worlds/attempt-strip.js").Entry} Entry */
 
-const LONGEST_STEP_MS = 86_400_000;
+const TICK_MS = 200;
 
 class PlayPage {
   #life = new AbortController();
-  /** @type {{world: import("#js/board/state.js").World, saved: boolean, demonstrations: any[]}} */
+  /** @type {{world: import("#js/board/state.js").World, saved: boolean, demonstrations: any[], options: {show_totals: boolean, hold_to_move: boolean}}} */
   #data = pageData();
   #world = this.#data.world;
+  #options = { showTotals: this.#data.options.show_totals, holdToMove: this.#data.options.hold_to_move };
   #nWanted = Number(byId("play").dataset.nWanted);
   #board = /** @type {import("#js/elements/irl-board.js").IrlBoard} */ (byId("board"));
-  #replay = new Replay(this.#board);
   #slot = byId("now");
-  #attempt = beginAttempt(this.#world, crypto.randomUUID());
-  #lastEvent = performance.now();
-  #numbers = false;
+  #session = new PlaySession({ world: this.#world, newId: uuid, at: performance.now() });
+  #client = new Client(this.#options);
+  #scoreboard = new Scoreboard(announce);
   #feedback = new Feedback();
-  #collection = new Collection(this.#data, this.#nWanted, { replay: (entry, n) => this.#startReplay(entry, n) });
+  #surroundings = new Surroundings(this.#board, this.#world);
+  #numbers = false;
+  /** @type {ReplayBar} */
+  #replay;
+  #collection;
+  #leftBehind;
+
+  constructor() {
+    this.#board.world = this.#world;
+    this.#replay = new ReplayBar(this.#board, this.#options, this.#life.signal);
+    this.#collection = new Collection(this.#data, this.#nWanted, {
+      replay: (entry, n) => this.#startReplay(entry, n),
+      showTotals: this.#options.showTotals,
+    });
+    this.#leftBehind = new LeftBehind(this.#world, this.#session, (id) => this.#collection.entry(id) !== undefined);
+  }
 
   start() {
-    this.#board.world = this.#world;
+    const { signal } = this.#life;
     byId("play").style.setProperty("--world-ratio", String(this.#world.cols / this.#world.rows));
-    this.#resume();
-    listenToKeys(this, { signal: this.#life.signal });
-    listenToPointer(this.#board, this, this.#life.signal);
-    listenToGamepad(this, this.#life.signal);
+    listenToKeys(this, { signal, holdToMove: this.#options.holdToMove });
+    listenToPointer(this.#board, this, signal);
+    listenToGamepad(this, signal, { holdToMove: this.#options.holdToMove });
+    noteAttention(this.#session, { signal, onClockJump: (sentence) => this.#hint(sentence) });
     this.#listenToButtons();
     this.#offerHelp();
-    this.#collection.start(this.#life.signal);
+    if (this.#world.time_limit_s) this.#watchTime();
     this.#show();
+    void this.#recall();
   }
 
-  /** @param {number} action @param {import("#js/board/input.js").Press} press */
-  move(action, { when }) {
-    if (this.#slot.dataset.shows === "replay") this.#endReplay();
-    if (this.#attempt.ending !== null) return false;
-    const before = stateOf(this.#attempt);
-    const ms = Math.min(LONGEST_STEP_MS, Math.max(0, Math.round((when - this.#lastEvent) * 10) / 10));
-    this.#lastEvent = when;
-    if (this.#attempt.actions.length === 0) this.#collection.shareQuery();
-    this.#attempt = step(this.#world, this.#attempt, action, ms);
-    const reached = stateOf(this.#attempt);
+  /** @param {number} action @param {Press} press @returns {boolean} whether a held key may go on */
+  move(action, { when, device }) {
+    if (this.#shows === "replay") return this.#steerReplay(action);
+    if (this.#session.isOver) return false;
+    if (!this.#session.hasOwnSteps) this.#collection.shareQuery();
+    const done = this.#session.move(action, { when, device, paintedAt: this.#board.paintedAt });
     this.#show();
-    const { taken, isSlip } = lastStep(this.#world, this.#attempt);
-    if (reached === before) this.#board.bump(taken);
-    if (reached === before) this.#feedback.bump();
-    this.#feedback.step({ reward: this.#attempt.rewards.at(-1) ?? 0, isSlip });
-    this.#floatReward(reached, isSlip);
-    if (this.#attempt.ending === null)
-      this.#speak(`${isSlip ? `Slipped ${DIRECTIONS[taken]}. ` : ""}${reached === before ? "Bumped. " : ""}`);
-    else this.#finish();
-    keepAttempt(this.#world.id, this.#attempt);
-    return this.#attempt.ending === null;
+    if (done) this.#tellStep(done);
+    this.#keepOrFinish(when);
+    return !this.#session.isOver;
   }
 
-  /** A tap on a square beside the agent is a step to it. @param {number} state @param {import("#js/board/input.js").Press} press */
+  /** A tap on a square beside the agent is a step to it; on a replay it pauses. @param {number} state @param {Press} press */
   tap(state, press) {
-    const here = stateOf(this.#attempt);
-    const action = [0, 1, 2, 3].find(
-      (direction) => state !== here && nextState(this.#world, here, direction) === state,
-    );
+    if (this.#shows === "replay") return this.#replay.toggle();
+    const here = this.#session.state;
+    const action = [0, 1, 2, 3].find((way) => state !== here && nextState(this.#world, here, way) === state);
     if (action !== undefined) this.move(action, press);
   }
 
-  /** What lies one square on, without going there. @param {number} direction */
+  /** The cursor looks at the next square, without anybody moving. @param {number} direction */
   look(direction) {
-    announce(describePosition(this.#world, nextState(this.#world, stateOf(this.#attempt), direction)));
+    if (this.#shows === "replay") return;
+    const [row, col] = placeOf(this.#world, this.#board.cursor ?? this.#session.state);
+    const [down, right] = DELTAS[direction] ?? [0, 0];
+    const isInside = row + down in this.#world.rewards && col + right >= 0 && col + right < this.#world.cols;
+    if (!isInside) return announce("The edge.");
+    const square = (row + down) * this.#world.cols + col + right;
+    this.#board.cursor = square;
+    this.#session.note("look", performance.now(), square);
+    this.#hint(describeSquare(this.#world, square));
   }
 
-  /** @param {string} command */
+  /** @param {Command} command */
   command(command) {
-    if (command === "where") return this.#speak("", false);
+    if (command === "where") return this.#tellWhere();
     if (command === "sound") return this.#feedback.toggleSound();
-    const shows = this.#slot.dataset.shows;
-    if (shows === "replay") this.#endReplay();
-    if (command === "endReplay") return;
-    if (command === "undo") this.#undo();
+    if (this.#shows === "replay") return this.#commandReplay(command);
+    if (command === "endReplay") this.#board.cursor = null;
+    else if (command === "undo") this.#undo();
     else if (command === "giveUp") this.#giveUp();
-    else if (command === "restart" && (this.#attempt.actions.length > 0 || shows === "result")) this.#begin();
-    else if (command === "again" && shows === "result") this.#begin();
+    else if (command === "again" && this.#shows === "result") this.#begin();
+    else if (command === "restart" && (this.#session.hasOwnSteps || this.#session.isOver)) this.#begin();
+  }
+
+  /** What the slot beside the board shows: "playing", "result" or "replay". */
+  get #shows() {
+    return this.#slot.dataset.shows;
+  }
+
+  /** An attempt that a reload or a crash interrupted goes on where it stood, unless another has begun meanwhile. */
+  async #recall() {
+    await this.#collection.start(this.#life.signal);
+    const words = await this.#leftBehind.recall();
+    if (!words) return;
+    this.#show();
+    this.#hint(words);
   }
 
   #begin() {
-    this.#attempt = beginAttempt(this.#world, crypto.randomUUID());
-    this.#lastEvent = performance.now();
+    this.#leaveAttempt();
+    this.#session.begin(performance.now());
+    this.#showBeginning("A new attempt.");
+  }
+
+  #branch() {
+    const shown = this.#replay.shown;
+    if (!shown || !this.#replay.canBranch) return;
+    this.#leaveAttempt();
+    this.#endReplay();
+    this.#session.beginFrom(shown.entry, shown.at, performance.now());
+    this.#showBeginning(`A new attempt, from step ${shown.at} on.`);
+  }
+
+  /** The attempt on the board makes room for another: what is unfinished of it is thrown away. */
+  #leaveAttempt() {
+    if (!this.#session.isOver) this.#leftBehind.drop(this.#session.attempt.id);
+  }
+
+  /** @param {string} words */
+  #showBeginning(words) {
     this.#slot.dataset.shows = "playing";
-    keepAttempt(this.#world.id, this.#attempt);
     this.#show();
+    this.#leftBehind.show();
     this.#board.focus({ preventScroll: true });
-    announce(`A new attempt. ${describePosition(this.#world, stateOf(this.#attempt))}`);
+    announce(`${words} ${describePosition(this.#world, this.#session.state)}`);
   }
 
   #undo() {
-    if (this.#attempt.actions.length === 0 || this.#attempt.ending !== null) return;
-    this.#attempt = undo(this.#attempt);
-    keepAttempt(this.#world.id, this.#attempt);
+    const when = performance.now();
+    if (!this.#session.undo(when)) return;
     this.#show();
+    this.#keepOrFinish(when);
     this.#speak("One step back. ", false);
   }
 
   #giveUp() {
-    if (this.#attempt.ending !== null) return;
-    this.#attempt = giveUp(this.#attempt);
-    if (this.#attempt.ending === null) return;
-    keepAttempt(this.#world.id, this.#attempt);
-    this.#show();
-    this.#finish();
+    if (this.#session.giveUp()) this.#keepOrFinish(performance.now());
   }
 
-  /** An attempt that a reload interrupted goes on where it stood. */
-  #resume() {
-    const kept = keptAttempt(this.#world);
-    if (!kept) return;
-    this.#attempt = kept;
-    const words = `Welcome back: you stood at step ${kept.actions.length}. Play on, or restart.`;
-    byId("hint").textContent = words;
-    byId("hint").dataset.isUsual = "false";
-    announce(words);
+  /** @param {number} when */
+  #keepOrFinish(when) {
+    if (!this.#session.isOver) this.#leftBehind.keep(when);
+    else if (this.#shows === "playing") this.#finish(when);
   }
 
-  #finish() {
-    const attempt = this.#attempt;
+  /** @param {number} when */
+  #finish(when) {
+    const { attempt, state } = this.#session;
     const outcome = outcomeOf(attempt);
-    this.#collection.add(attempt);
+    this.#show();
+    const kept = this.#collection.add(attempt, this.#session.record(when, this.#client.describe()));
+    // Only what is safe in the outbox may leave the storage of unfinished attempts.
+    void kept.then((isSafe) => isSafe && this.#leftBehind.drop(attempt.id));
     const { title, text } = finishSentence({
       outcome,
       ending: attempt.ending,
-      total: totalOf(attempt),
+      total: this.#options.showTotals ? totalOf(attempt) : null,
       nSteps: attempt.actions.length,
       nSame: this.#collection.count(outcome),
       nWanted: this.#nWanted,
@@ -156,86 +202,124 @@ class PlayPage {
     byId("result-title").textContent = `${outcome === "success" ? "✓" : "✗"} ${title}`;
     byId("result-text").textContent = text;
     this.#slot.dataset.shows = "result";
+    this.#leftBehind.show();
+    if (outcome === "success") this.#board.celebrate(state);
     this.#feedback.finish(outcome);
-    if (outcome === "success") this.#board.hop();
     announce(`${title}. ${text} Enter plays again.`);
   }
 
   /** @param {Entry} entry @param {number} n */
   #startReplay(entry, n) {
-    if (this.#slot.dataset.shows !== "replay") this.#slot.dataset.before = this.#slot.dataset.shows;
+    if (this.#shows !== "replay") this.#slot.dataset.before = this.#shows;
     this.#slot.dataset.shows = "replay";
-    byId("replay-title").textContent = `Attempt ${n}: ${entry.outcome}, ${signed(entry.total)}`;
     this.#board.dataset.mode = "replay";
-    const name = `Replay of attempt ${n}`;
-    announce(
-      `${name}: ${entry.outcome}, ${signed(entry.total)} in ${plural(entry.actions.length, "step")}. Escape goes back to play.`,
-    );
+    this.#board.cursor = null;
     // On a phone the list lies below the board.
     this.#board.scrollIntoView({ block: "nearest" });
-    this.#replay.play(entry, () => announce(`${name} is over. Escape goes back to play.`));
+    this.#replay.open(entry, n);
   }
 
   #endReplay() {
-    this.#replay.stop();
+    this.#replay.close();
     delete this.#board.dataset.mode;
     this.#slot.dataset.shows = this.#slot.dataset.before ?? "playing";
     this.#show();
   }
 
+  /** Left and right go through the steps, up and down change the speed. @param {number} action */
+  #steerReplay(action) {
+    if (action === 1 || action === 3) this.#replay.nudge(action === 1 ? 1 : -1);
+    else this.#replay.changeSpeed(action === 0 ? 1 : -1);
+    return true;
+  }
+
+  /** @param {Command} command */
+  #commandReplay(command) {
+    if (command === "again") this.#replay.toggle();
+    else if (command === "branch") this.#branch();
+    else if (command === "endReplay") this.#endReplay();
+  }
+
   #show() {
-    const attempt = this.#attempt;
-    const state = stateOf(attempt);
+    const { attempt, state } = this.#session;
+    const { numbers, cursor } = { numbers: this.#numbers, cursor: null };
     const last = attempt.actions.length;
     this.#board.view = {
-      numbers: this.#numbers,
-      paths: [{ states: [...attempt.states], who: "human", width: 0.35, fade: attempt.ending === null }],
+      numbers,
+      paths: [{ states: attempt.states, who: "human", width: 0.35, fade: attempt.ending === null }],
       agents: [{ state, who: "human", facing: facingOf(this.#world, attempt, last) }],
     };
+    this.#board.cursor = cursor;
     this.#board.dataset.state = String(state);
-    byId("total").textContent = number(totalOf(attempt));
-    byId("n-steps").textContent = String(last);
-    byId("last-step").textContent = last > 0 ? signed(attempt.rewards[last - 1] ?? 0) : "–";
-    byId("position").textContent = describePosition(this.#world, state);
-    const hasNone = last === 0 || attempt.ending !== null;
+    this.#scoreboard.show(attempt);
+    this.#scoreboard.showTime(this.#session.timeLeft(performance.now()));
+    this.#surroundings.show(state);
+    const hasNone = !this.#session.hasOwnSteps || this.#session.isOver;
     for (const button of document.querySelectorAll(".now-actions button")) {
       /** @type {HTMLButtonElement} */ (button).disabled = hasNone;
     }
   }
 
-  /** @param {number} state @param {boolean} isSlip */
-  #floatReward(state, isSlip) {
-    const reward = this.#attempt.rewards.at(-1) ?? 0;
-    this.#board.float(state, `${isSlip ? "slipped " : ""}${signed(reward)}`, reward > 0 ? "gain" : "loss");
+  /** @param {import("#js/worlds/session.js").Step} step */
+  #tellStep({ reached, reward, taken, isSlip, isBump }) {
+    this.#board.float(reached, `${isSlip ? "slipped " : ""}${signed(reward)}`, reward > 0 ? "gain" : "loss");
+    if (isBump) {
+      this.#board.bump(taken);
+      this.#feedback.bump();
+    } else this.#feedback.step({ reward, isSlip });
+    this.#speak(`${isSlip ? `Slipped ${DIRECTIONS[taken]}. ` : ""}${isBump ? "Bumped. " : ""}`);
+  }
+
+  #tellWhere() {
+    const words = `${describePosition(this.#world, this.#session.state)} ${describeWay(this.#world, this.#session.state)}`;
+    this.#hint(`${words}${this.#totalWords()}`);
   }
 
   /** @param {string} before @param {boolean} [hasPaid] */
   #speak(before, hasPaid = true) {
-    const cost = this.#attempt.rewards.at(-1);
+    const { attempt, state } = this.#session;
+    const cost = attempt.rewards.at(-1);
     const paid = cost === undefined || !hasPaid ? "" : `${signed(cost)}. `;
-    const total = ` Total ${number(totalOf(this.#attempt))}.`;
-    announce(before + paid + describePosition(this.#world, stateOf(this.#attempt)) + total);
+    announce(before + paid + describePosition(this.#world, state) + this.#totalWords());
+  }
+
+  #totalWords() {
+    return this.#options.showTotals ? ` Total ${number(totalOf(this.#session.attempt))}.` : "";
+  }
+
+  /** Say a sentence, below the board and aloud. @param {string} sentence */
+  #hint(sentence) {
+    const hint = byId("hint");
+    hint.textContent = sentence;
+    hint.dataset.isUsual = "false";
+    announce(sentence);
+  }
+
+  #watchTime() {
+    const timer = setInterval(() => {
+      const now = performance.now();
+      if (this.#session.tick(now)) this.#endByTime(now);
+      else if (!this.#session.isOver) this.#scoreboard.showTime(this.#session.timeLeft(now));
+    }, TICK_MS);
+    this.#life.signal.addEventListener("abort", () => clearInterval(timer));
+  }
+
+  /** @param {number} now */
+  #endByTime(now) {
+    if (this.#shows === "replay") this.#endReplay();
+    this.#keepOrFinish(now);
   }
 
   #listenToButtons() {
     const { signal } = this.#life;
-    const onClick = (/** @type {MouseEvent} */ event) => {
-      const button = event.target instanceof Element ? event.target.closest("button") : null;
-      if (!button) return;
-      const { move, command, speed } = button.dataset;
-      if (move !== undefined) this.move(Number(move), { when: event.timeStamp, device: "pad" });
-      else if (command !== undefined) this.command(command);
-      else if (speed !== undefined) this.#setSpeed(Number(speed));
-      // A button that has done its work for now would take the focus with it.
-      const isGone = button.disabled || !button.checkVisibility({ visibilityProperty: true });
-      const isFocusLost = document.activeElement === button || document.activeElement === document.body;
-      if (isGone && isFocusLost) this.#board.focus({ preventScroll: true });
-    };
-    byId("play").addEventListener("click", onClick, { signal });
+    byId("play").addEventListener("click", (event) => this.#onClick(event), { signal });
     byId("numbers").addEventListener("click", () => this.#toggleNumbers(), { signal });
+    this.#board.addEventListener("board:numbers", (event) => {
+      this.#session.note("numbers", performance.now(), Number(/** @type {CustomEvent} */ (event).detail.shown));
+    });
   }
 
-  /** Options, and the practice for whoever is new. */
+  /** Options, the practice for whoever is new, and the way to a world of one's own. */
   #offerHelp() {
     const { signal } = this.#life;
     const feedback = this.#feedback;
@@ -244,18 +328,34 @@ class PlayPage {
     const practise = () => startPractice({ dialog, feedback, onDone: toBoard });
     offerPractice({ practise, onSkip: toBoard });
     startOptions({ feedback, practise, signal });
+    if (this.#world.spec) byId("design").setAttribute("href", `/worlds/new?${toQuery(this.#world.spec)}`);
   }
 
-  /** @param {number} speed */
-  #setSpeed(speed) {
-    this.#replay.speed = speed;
-    for (const button of document.querySelectorAll("[data-speed]")) {
-      button.setAttribute("aria-pressed", String(Number(/** @type {HTMLElement} */ (button).dataset.speed) === speed));
-    }
+  /** @param {MouseEvent} event */
+  #onClick(event) {
+    const button = event.target instanceof Element ? event.target.closest("button") : null;
+    if (!button) return;
+    const { move, command } = button.dataset;
+    if (move !== undefined) this.move(Number(move), { when: event.timeStamp, device: "pad" });
+    else if (command === "takeUp") void this.#takeUp();
+    else if (command === "forgetLeft") this.#leftBehind.forget();
+    else if (command !== undefined) this.command(/** @type {Command} */ (command));
+    // A button that has done its work for now would take the focus with it.
+    const isGone = button.disabled || !button.checkVisibility({ visibilityProperty: true });
+    const isFocusLost = document.activeElement === button || document.activeElement === document.body;
+    if (isGone && isFocusLost) this.#board.focus({ preventScroll: true });
+  }
+
+  async #takeUp() {
+    const words = await this.#leftBehind.takeUp();
+    if (!words) return;
+    this.#showBeginning("");
+    this.#hint(words);
   }
 
   #toggleNumbers() {
     this.#numbers = !this.#numbers;
+    this.#session.note("numbers", performance.now(), Number(this.#numbers));
     byId("numbers").setAttribute("aria-pressed", String(this.#numbers));
     this.#board.view = { ...this.#board.view, numbers: this.#numbers };
   }

@@ -96,16 +96,22 @@ export class Unfinished {
   async #free(drafts) {
     if (drafts.length === 0) return [];
     const mine = drafts.find(({ id }) => id === remembered())?.id;
-    if (mine !== undefined && !this.#belongings.has(nameOf(mine))) await this.#waitFor(mine);
+    const isMineFree = mine !== undefined && !this.#belongings.has(nameOf(mine)) && (await this.#canTake(mine));
     const taken = await this.#belongings.ofOthers();
-    return drafts
-      .filter(({ id }) => !taken.has(nameOf(id)) && !this.#belongings.has(nameOf(id)))
-      .sort((a, b) => Number(b.id === mine) - Number(a.id === mine) || b.savedAt - a.savedAt);
+    const isFree = (/** @type {string} */ id) => !taken.has(nameOf(id)) && !this.#belongings.has(nameOf(id));
+    return (
+      drafts
+        // A lock just given back may still be listed as held.
+        .filter(({ id }) => (id === mine ? isMineFree : isFree(id)))
+        .sort((a, b) => Number(b.id === mine) - Number(a.id === mine) || b.savedAt - a.savedAt)
+    );
   }
 
   /** @param {string} id */
-  async #waitFor(id) {
-    if (await this.#belongings.take(nameOf(id), RELOAD_MS)) this.#belongings.giveBack(nameOf(id));
+  async #canTake(id) {
+    const isFree = await this.#belongings.take(nameOf(id), RELOAD_MS);
+    if (isFree) this.#belongings.giveBack(nameOf(id));
+    return isFree;
   }
 
   /** @param {string} id */

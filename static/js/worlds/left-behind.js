@@ -1,0 +1,103 @@
+/**
+ * Attempts that a reload, a crash or a closed tab left unfinished: the newest goes on by itself, the others are offered
+ * while no attempt is under way. (Where they are kept: unfinished.js.)
+ */
+
+import { byId } from "#js/lib/dom.js";
+import { plural } from "#js/lib/format.js";
+import { Unfinished } from "#js/worlds/unfinished.js";
+
+/** @typedef {import("#js/worlds/session.js").Draft} Draft */
+
+export class LeftBehind {
+  #session;
+  #isKnown;
+  #store;
+  /** @type {Draft[]} newest first */
+  #drafts = [];
+
+  /**
+   * @param {import("#js/board/state.js").World} world
+   * @param {import("#js/worlds/session.js").PlaySession} session
+   * @param {(id: string) => boolean} isKnown   whether this attempt was finished and is kept elsewhere
+   */
+  constructor(world, session, isKnown) {
+    this.#session = session;
+    this.#isKnown = isKnown;
+    this.#store = Unfinished.open(world);
+  }
+
+  /** Find what was left; the newest goes on if nothing else has begun. @returns {Promise<string>} what to say, or "" */
+  async recall() {
+    const { drafts, nDamaged } = await (await this.#store).left();
+    for (const draft of drafts) if (this.#isKnown(draft.id)) this.drop(draft.id);
+    this.#drafts = drafts.filter((draft) => !this.#isKnown(draft.id));
+    const welcome = this.#isIdle ? await this.takeUp() : "";
+    this.show();
+    return [welcome, damagedSentence(nDamaged)].filter(Boolean).join(" ");
+  }
+
+  /** Keep the present state of the attempt being played. @param {number} when */
+  keep(when) {
+    const { id } = this.#session.attempt;
+    if (!this.#session.hasOwnSteps) return this.drop(id);
+    const draft = this.#session.draft(when);
+    void this.#store.then((store) => store.keep(draft));
+    this.show();
+  }
+
+  /** @param {string} id */
+  drop(id) {
+    void this.#store.then((store) => store.drop(id));
+  }
+
+  /** Go on with the newest that no other tab was quicker to take. @returns {Promise<string>} what to say, or "" */
+  async takeUp() {
+    const draft = this.#drafts.shift();
+    if (!draft) return "";
+    if (!(await (await this.#store).take(draft.id))) return this.takeUp();
+    // Somebody quick has begun another attempt meanwhile.
+    if (!this.#isIdle) return this.#putBack(draft);
+    const now = performance.now();
+    if (!this.#session.resume(draft, now, Math.max(0, Date.now() - draft.savedAt))) {
+      this.drop(draft.id);
+      return this.takeUp();
+    }
+    this.keep(now);
+    return `Welcome back: you stood at step ${draft.actions.length}. Play on, or restart.`;
+  }
+
+  /** The person does not want the newest. */
+  forget() {
+    const draft = this.#drafts.shift();
+    if (draft) this.drop(draft.id);
+    this.show();
+  }
+
+  /** Offer what is left while no attempt is under way. */
+  show() {
+    const [draft] = this.#drafts;
+    byId("left").hidden = draft === undefined || !this.#isIdle;
+    if (draft === undefined) return;
+    const words = `You also left an attempt after ${plural(draft.actions.length, "step")}.`;
+    byId("left-words").textContent = words;
+  }
+
+  /** @param {Draft} draft */
+  #putBack(draft) {
+    this.#drafts.unshift(draft);
+    this.show();
+    return "";
+  }
+
+  get #isIdle() {
+    return this.#session.isOver || !this.#session.hasOwnSteps;
+  }
+}
+
+/** @param {number} nDamaged */
+function damagedSentence(nDamaged) {
+  if (nDamaged === 0) return "";
+  const what = nDamaged === 1 ? "An unfinished attempt" : `${nDamaged} unfinished attempts`;
+  return `${what} in this browser could not be read and ${nDamaged === 1 ? "was" : "were"} set aside.`;
+}
