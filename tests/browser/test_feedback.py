@@ -53,8 +53,11 @@ def test_the_choice_is_remembered_and_waits_for_the_first_key(page: Page) -> Non
     expect(page.locator("#option-sound")).to_be_checked()
     page.keyboard.press("Escape")
     expect(page.locator("#options summary")).to_be_focused()
-    page.keyboard.press("ArrowRight")
-    expect_notes(page, 1)
+    assert heard(page)["contexts"] == 0
+    while heard(page)["notes"] == 0:  # the first may come too late to be played, while the browser opens its audio
+        page.keyboard.press("ArrowRight")
+        page.keyboard.press("z")
+    assert heard(page)["contexts"] == 1
 
 
 def test_the_sheet_of_options_closes_by_a_press_elsewhere_and_then_keys_move_again(page: Page) -> None:

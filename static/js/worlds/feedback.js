@@ -36,7 +36,7 @@ export class Feedback extends EventTarget {
   set sound(isOn) {
     this.#sound = isOn;
     keep(SOUND_KEY, isOn);
-    if (isOn) this.#play(notesOfFinish("success"));
+    if (isOn) this.#play(notesOfFinish("success"), Number.POSITIVE_INFINITY);
     else void this.#audio?.suspend();
     this.dispatchEvent(new Event("change"));
   }
@@ -79,12 +79,12 @@ export class Feedback extends EventTarget {
     if (this.#sound) void this.#running();
   }
 
-  /** @param {Note[]} notes */
-  async #play(notes) {
+  /** @param {Note[]} notes @param {number} [patience] ms */
+  async #play(notes, patience = LATEST_MS) {
     if (!this.#sound || notes.length === 0) return;
     const asked = performance.now();
     const audio = await this.#running();
-    if (!audio || performance.now() - asked > LATEST_MS) return;
+    if (!audio || performance.now() - asked > patience) return;
     for (const note of notes) sing(audio, note);
   }
 
