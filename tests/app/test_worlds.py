@@ -2,6 +2,7 @@
 
 import pytest
 
+from app.worlds import schemas
 from tests.factories import PLAYABLE_SEED, make_world
 
 
@@ -154,6 +155,23 @@ def test_a_drawn_world_has_what_was_asked_for_and_can_be_won(client):
 )
 def test_a_refusal_says_what_would_be_right(client, body, sentence):
     assert sentence in client.post("/api/v1/worlds", json=body).json()["error"]["message"]
+
+
+def test_what_crosses_the_wire_has_the_limits_of_the_science():
+    from irl_core import gridworld, types
+
+    assert schemas.SIDE == (types.MIN_SIDE, types.MAX_SIDE)
+    assert schemas.SEED == (0, types.MAX_SEED)
+    assert schemas.SLIP == (0.0, types.MAX_SLIP)
+    assert schemas.TIME_LIMIT_S == (types.MIN_TIME_LIMIT_S, types.MAX_TIME_LIMIT_S)
+    assert (schemas.REWARD, schemas.GOAL_REWARD) == (gridworld.REWARDS, gridworld.GOAL_REWARDS)
+
+
+def test_a_world_may_be_painted_from_end_to_end(client):
+    painted = [[square, -(square % 70) / 10] for square in range(9_999)]
+    world = make_world(client, rows=100, cols=100, painted=painted)
+    assert [reward for row in world["rewards"] for reward in row][:9_999] == [reward for _, reward in painted]
+    assert len(world["spec"]["painted"]) == 9_999
 
 
 def test_too_many_red_squares_are_refused_in_words(client):

@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from irl_core import (
+    InvalidFile,
     InvalidWorld,
     World,
     draw_playable_world,
@@ -114,6 +115,15 @@ def test_the_time_limit_belongs_to_the_world_and_survives_json_and_files():
     older = {name: value for name, value in plain.to_json().items() if name != "time_limit_s"}
     assert World.from_json(older) == plain
     assert np.array_equal(timed.mdp.next_states, plain.mdp.next_states)
+
+
+def test_a_file_with_an_impossible_limit_names_its_line():
+    world = {**generate_world(5, rows=2, cols=2).to_json(), "kind": "world", "time_limit_s": 1}
+    with pytest.raises(
+        InvalidFile, match="Line 1: time_limit_s must be a whole number from 5 to 3600, not 1."
+    ) as refusal:
+        read_demonstration_file([json.dumps(world)])
+    assert (refusal.value.line, refusal.value.field) == (1, "time_limit_s")
 
 
 REFUSED = [
