@@ -136,7 +136,7 @@ def test_everything_can_be_done_by_keyboard_alone(page: Page) -> None:
     spoken = page.locator("#announcer")
     while page.evaluate("document.activeElement.id") != "board":
         page.keyboard.press("Tab")
-    expect(spoken).to_have_text(re.compile("Row 1, column 1: the start, blue"))
+    expect(spoken).to_have_text(re.compile("Row 1, column 1: blue, .*, the start"))
     assert page.locator("#board").evaluate("board => board.cursor") == 0
     page.keyboard.press("ArrowDown")
     expect(spoken).to_have_text(re.compile("Row 2, column 1: red"))
@@ -150,7 +150,7 @@ def test_everything_can_be_done_by_keyboard_alone(page: Page) -> None:
     page.keyboard.press("ArrowUp")
     page.keyboard.press("Enter")
     assert world_on(page)["goals"] == [48, 3]
-    expect(spoken).to_have_text(re.compile("Row 1, column 4: a goal, pays 14"))
+    expect(spoken).to_have_text(re.compile("Row 1, column 4: the goal, plus 14"))
     page.keyboard.press("z")
     page.keyboard.press("z")
     assert (world_on(page)["walls"], world_on(page)["goals"]) == ([], [48])
@@ -214,6 +214,19 @@ def test_an_impossible_number_is_said_beside_its_field_and_nothing_is_lost(page:
     expect(page.locator("#play-link")).to_have_attribute("aria-disabled", "true")
     set_number(page, "step_limit", "")
     expect(verdict(page)).to_have_attribute("data-state", "possible")
+
+
+def test_the_fields_take_what_the_server_takes(page: Page) -> None:
+    page.goto("/worlds/new?seed=5")
+    limits = walk.page_data(page)["limits"]
+    expected = {name: limits[name] for name in ("rows", "cols", "seed", "time_limit_s")}
+    expected |= {name: [100 * limit for limit in limits[name]] for name in ("red_probability", "slip")}
+    expected |= {"reward": [0, -limits["reward"][0]], "pay": limits["goal_reward"]}
+    rules = page.evaluate("import('/static/js/worlds/editor/rules.js').then(({ RULES }) => RULES)")
+    for name, bounds in expected.items():
+        assert [rules[name]["least"], rules[name]["most"]] == bounds, name
+        field = page.locator(f"#{name}")
+        assert [float(field.get_attribute(end) or "nan") for end in ("min", "max")] == bounds, name
 
 
 def test_walls_that_close_every_way_are_told_and_an_undo_opens_it(page: Page) -> None:

@@ -69,11 +69,9 @@ test("the verdict says what would help", () => {
   assert.match(short, /within 8 steps.*or allow more steps\.$/);
 });
 
-test("a square is told as it is seen", () => {
-  assert.equal(squareSentence(SMALL, 0, false), "Row 1, column 1: the start, blue, \u22120.25.");
-  assert.equal(squareSentence(SMALL, 4, true), "Row 2, column 2: red, \u22127.0, painted.");
-  assert.equal(squareSentence(SMALL, 8, false), "Row 3, column 3: a goal, pays 6.0.");
-  assert.equal(squareSentence({ ...SMALL, colours: [["blue", "wall"]] }, 1, false), "Row 1, column 2: a wall.");
+test("a square is told as on every board, and whether somebody painted it", () => {
+  assert.equal(squareSentence(SMALL, 4, true), "Row 2, column 2: red, \u22127.0. Painted.");
+  assert.equal(squareSentence(SMALL, 5, false), "Row 2, column 3: blue, \u22120.4.");
 });
 
 test("limits are told in words", () => {

@@ -93,6 +93,7 @@ class EditorPage {
     document.addEventListener("keydown", (event) => this.#onKey(event), { signal });
     window.addEventListener("online", () => this.#preview.askAgain(), { signal });
     this.#show();
+    byId("notice").hidden = !this.#problem;
     if (this.#problem) this.#tellFields(this.#problem.fields);
     void this.#presets.draw();
   }

@@ -1,7 +1,8 @@
 /** What the editor says, each sentence built from plain figures. */
 
-import { colourOf, nextState, placeOf, rewardOf } from "#js/board/state.js";
-import { number, plural } from "#js/lib/format.js";
+import { describeSquare } from "#js/board/describe.js";
+import { nextState } from "#js/board/state.js";
+import { plural } from "#js/lib/format.js";
 
 /** @typedef {import("#js/board/state.js").World} World */
 /** @typedef {import("#js/worlds/editor/brushes.js").Tool} Tool */
@@ -84,19 +85,7 @@ export function limitWords({ horizon, timeLimitS }) {
   return timeLimitS === null ? steps : `${steps}, ${plural(timeLimitS, "second")}`;
 }
 
-/** "Row 3, column 4: red, costs 3.2, painted." @param {World} world @param {number} square @param {boolean} isPainted */
+/** "Row 3, column 4: red, −3.2. Painted." @param {World} world @param {number} square @param {boolean} isPainted */
 export function squareSentence(world, square, isPainted) {
-  const [row, col] = placeOf(world, square);
-  const reward = rewardOf(world, square);
-  const colour = colourOf(world, square);
-  const words = [square === world.start ? "the start" : ""];
-  if (colour === "wall") words.push("a wall");
-  else if (colour === "goal") words.push(`a goal, pays ${short(reward)}`);
-  else words.push(`${colour}, ${short(reward)}`, isPainted ? "painted" : "");
-  return `Row ${row + 1}, column ${col + 1}: ${words.filter(Boolean).join(", ")}.`;
-}
-
-/** One digit behind the point, two where somebody painted them. @param {number} value */
-function short(value) {
-  return number(value, Number.isInteger(value * 10) || !Number.isInteger(value * 100) ? 1 : 2);
+  return describeSquare(world, square) + (isPainted ? " Painted." : "");
 }
