@@ -119,9 +119,7 @@ def test_the_time_limit_belongs_to_the_world_and_survives_json_and_files():
 
 def test_a_file_with_an_impossible_limit_names_its_line():
     world = {**generate_world(5, rows=2, cols=2).to_json(), "kind": "world", "time_limit_s": 1}
-    with pytest.raises(
-        InvalidFile, match="Line 1: time_limit_s must be a whole number from 5 to 3600, not 1."
-    ) as refusal:
+    with pytest.raises(InvalidFile, match="Line 1: time_limit_s must be a whole number from 5") as refusal:
         read_demonstration_file([json.dumps(world)])
     assert (refusal.value.line, refusal.value.field) == (1, "time_limit_s")
 
