@@ -4,14 +4,13 @@ import { ApiError, retryAfterMs } from "#js/lib/api.js";
 import { uuid } from "#js/lib/uuid.js";
 import { damagedSentence, refusalSentence, savingNews, savingWords } from "#js/worlds/saving-words.js";
 
-const calm = { nAttempts: 1, nWishes: 0, nUnstored: 0, trouble: null, isOnline: true };
+const calm = { nAttempts: 1, nWishes: 0, nUnstored: 0, trouble: null };
 
 test("saved, saving, offline, busy and in memory alone have each a badge", () => {
   const words = (more) => savingWords({ ...calm, ...more });
   assert.deepEqual(words({ nAttempts: 0 }), { sync: "saved", badge: "✓ all saved", sentence: "" });
   assert.equal(words({}).badge, "saving 1 attempt …");
   assert.equal(words({ nAttempts: 0, nWishes: 2 }).badge, "saving 2 changes …");
-  assert.equal(words({ isOnline: false }).sync, "offline");
   const gone = words({ nAttempts: 3, trouble: { status: 0, retryAfterMs: null } });
   assert.equal(gone.badge, "offline: 3 attempts kept");
   assert.match(gone.sentence, /kept in this browser and sent later/);
@@ -27,7 +26,7 @@ test("saved, saving, offline, busy and in memory alone have each a badge", () =>
 test("what changes is spoken once, what goes well is not", () => {
   const saved = savingWords({ ...calm, nAttempts: 0 });
   const waiting = savingWords(calm);
-  const offline = savingWords({ ...calm, isOnline: false });
+  const offline = savingWords({ ...calm, trouble: { status: 0, retryAfterMs: null } });
   assert.equal(savingNews(waiting, "saved"), "");
   assert.equal(savingNews(saved, "waiting"), "");
   assert.equal(savingNews(offline, "waiting"), offline.sentence);

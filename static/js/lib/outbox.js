@@ -8,7 +8,7 @@
 
 import { ApiError } from "#js/lib/api.js";
 import { inTurn } from "#js/lib/locks.js";
-import { isSound, parcelSender, storedParcels, wishId } from "#js/lib/parcels.js";
+import { isRefused, isSound, parcelSender, storedParcels, wishId } from "#js/lib/parcels.js";
 import { browserStorage } from "#js/lib/storage.js";
 
 const FIRST_PAUSE_MS = 1000;
@@ -203,7 +203,7 @@ export class Outbox {
 
   /** Whatever another one rests on goes first. @param {Parcel[]} parcels */
   #next(parcels) {
-    const waiting = parcels.filter((parcel) => parcel.refusal === null && !this.#answered.has(keyOf(parcel)));
+    const waiting = parcels.filter((parcel) => !isRefused(parcel) && !this.#answered.has(keyOf(parcel)));
     const ids = new Set(waiting.map(({ id }) => id));
     return waiting.find((parcel) => !ids.has(foundationOf(parcel)));
   }

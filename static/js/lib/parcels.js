@@ -47,16 +47,17 @@ export function wishId(attemptId) {
 /** A finished attempt takes the place of the unfinished one: never both, never neither. @param {import("#js/lib/storage.js").Storage} storage @returns {Store} */
 export function storedParcels(storage) {
   return {
-    add: (parcel) =>
-      storage.run(["outbox", "unfinished"], "readwrite", async (store) => {
-        const { seq: _, ...rest } = parcel;
+    async add({ seq: _, ...parcel }) {
+      /** @type {IDBRequest<IDBValidKey> | undefined} */
+      let added;
+      await storage.run(["outbox", "unfinished"], "readwrite", async (store) => {
         // An attempt never changes, so only a wish needs a look: without one, all is said before the page can close.
-        const before = parcel.kind === "discard" ? await ask(store("outbox").index("id").getKey(parcel.id)) : undefined;
-        if (before !== undefined) store("outbox").delete(before);
-        const added = ask(store("outbox").add(rest));
+        if (parcel.kind === "discard") await deleteById(store("outbox"), parcel.id);
+        added = store("outbox").add(parcel);
         store("unfinished").delete(parcel.id);
-        return { ...rest, seq: Number(await added) };
-      }),
+      });
+      return { ...parcel, seq: Number(added?.result) };
+    },
     refuse: (parcel) =>
       storage.run(["outbox"], "readwrite", async (store) => {
         const isThere = (await ask(store("outbox").getKey(Number(parcel.seq)))) !== undefined;
@@ -66,6 +67,12 @@ export function storedParcels(storage) {
       storage.run(["outbox"], "readwrite", (store) => void store("outbox").delete(Number(parcel.seq))),
     all: () => storage.run(["outbox"], "readonly", (store) => ask(store("outbox").getAll())),
   };
+}
+
+/** @param {IDBObjectStore} outbox @param {string} id */
+async function deleteById(outbox, id) {
+  const seq = await ask(outbox.index("id").getKey(id));
+  if (seq !== undefined) outbox.delete(seq);
 }
 
 /** The same in memory. @returns {Store} */
@@ -86,6 +93,11 @@ export function memoryParcels() {
     delete: async (parcel) => void kept.delete(Number(parcel.seq)),
     all: async () => [...kept.values()],
   };
+}
+
+/** @param {Pick<Parcel, "refusal">} parcel */
+export function isRefused({ refusal }) {
+  return typeof refusal === "string";
 }
 
 /** Whether it can be sent at all; storage can be damaged. @param {any} parcel */

@@ -1,7 +1,7 @@
 /** Attempts as the list has them: from the server, from the board, from the outbox. */
 
 import { outcomeOf, replayActions, totalOf } from "#js/board/moves.js";
-import { isSound } from "#js/lib/parcels.js";
+import { isRefused, isSound } from "#js/lib/parcels.js";
 import { refusalSentence } from "#js/worlds/saving-words.js";
 
 /** @typedef {import("#js/board/moves.js").Attempt} Attempt */
@@ -61,7 +61,7 @@ export function entryOfAttempt(attempt) {
 
 /** One that waits, or was refused, perhaps since another day. @param {World} world @param {AttemptParcel} parcel @returns {Entry} */
 export function entryOfParcel(world, parcel) {
-  const sync = parcel.refusal === null ? "waiting" : "refused";
+  const sync = isRefused(parcel) ? "refused" : "waiting";
   const note = sync === "refused" ? refusalSentence(parcel) : null;
   return { ...entryOfAttempt(attemptOf(world, parcel)), sync, note };
 }

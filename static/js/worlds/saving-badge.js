@@ -22,12 +22,6 @@ export class SavingBadge {
     this.#nUnstored = nUnstored;
   }
 
-  /** @param {AbortSignal} signal */
-  start(signal) {
-    for (const type of ["online", "offline"]) window.addEventListener(type, () => this.show(true), { signal });
-    signal.addEventListener("abort", () => this.#guard(false));
-  }
-
   /** @param {Pick<Parcel, "id" | "kind">} parcel */
   wait({ id, kind }) {
     this.#waiting.set(id, kind === "discard" ? "wish" : "attempt");
@@ -51,7 +45,6 @@ export class SavingBadge {
       nWishes: kinds.filter((kind) => kind === "wish").length,
       nUnstored: this.#nUnstored(),
       trouble: this.#trouble,
-      isOnline: navigator.onLine,
     });
     const badge = byId("sync");
     badge.hidden = !isNeeded;
@@ -61,7 +54,7 @@ export class SavingBadge {
     byId("saving").textContent = words.sentence;
     byId("saving").hidden = words.sentence === "";
     this.#tell(words);
-    this.#guard(words.sync === "memory");
+    this.#guard(this.#nUnstored() > 0);
   }
 
   /** @param {import("#js/worlds/saving-words.js").SavingWords} words */

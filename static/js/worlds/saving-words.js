@@ -8,33 +8,26 @@ import { plural } from "#js/lib/format.js";
  * @property {number} nWishes      discards and restores that it does not know of yet
  * @property {number} nUnstored    of both, those that live in this page alone
  * @property {{status: number, retryAfterMs: number | null} | null} trouble  what the server answered last (0: nothing), if it could not take them
- * @property {boolean} isOnline
  */
 
 /** @typedef {{sync: "saved" | "waiting" | "offline" | "busy" | "memory", badge: string, sentence: string}} SavingWords */
 
 /** @param {Saving} saving @returns {SavingWords} */
-export function savingWords(saving) {
-  const { nAttempts, nWishes, nUnstored, trouble, isOnline } = saving;
+export function savingWords({ nAttempts, nWishes, nUnstored, trouble }) {
   if (nAttempts + nWishes === 0) return { sync: "saved", badge: "✓ all saved", sentence: "" };
   const what = nAttempts > 0 ? plural(nAttempts, "attempt") : plural(nWishes, "change");
+  if (trouble === null) return { sync: "waiting", badge: `saving ${what} …`, sentence: "" };
+  if (nUnstored > 0) return { sync: "memory", badge: "keep this page open", sentence: unstoredSentence(nUnstored) };
   const it = nAttempts + nWishes === 1 ? "it" : "them";
-  if (nUnstored > 0) return { sync: "memory", badge: "keep this page open", sentence: unstoredSentence(saving) };
-  if (trouble === null && isOnline) return { sync: "waiting", badge: `saving ${what} …`, sentence: "" };
-  const isBusy = isOnline && trouble !== null && trouble.status > 0;
-  if (isBusy) return { sync: "busy", badge: `busy: ${what} kept`, sentence: busySentence(trouble, it) };
-  const sentence = `The server cannot be reached. What you play is kept in this browser and sent later by itself.`;
+  if (trouble.status > 0) return { sync: "busy", badge: `busy: ${what} kept`, sentence: busySentence(trouble, it) };
+  const sentence = "The server cannot be reached. What you play is kept in this browser and sent later by itself.";
   return { sync: "offline", badge: `offline: ${what} kept`, sentence };
 }
 
-/** @param {Saving} saving */
-function unstoredSentence({ nUnstored, trouble, isOnline }) {
-  const [is, it] = nUnstored === 1 ? ["1 of your attempts is", "it"] : [`${nUnstored} of your attempts are`, "them"];
-  const has =
-    trouble === null && isOnline
-      ? `is getting ${it} now`
-      : `cannot be reached just now, and gets ${it} as soon as it can`;
-  return `This browser's storage is full or closed, so ${is} in this page alone. The server ${has}: please keep the page open until then.`;
+/** @param {number} n */
+function unstoredSentence(n) {
+  const [is, it] = n === 1 ? ["1 of your attempts is", "it"] : [`${n} of your attempts are`, "them"];
+  return `The server cannot take ${it} just now, and this browser's storage is full or closed: ${is} in this page alone. Keep it open until ${it === "it" ? "it is" : "they are"} sent.`;
 }
 
 /** @param {{status: number, retryAfterMs: number | null}} trouble @param {string} it */
