@@ -66,9 +66,9 @@ def read_query(text: str) -> WorldQuery:
     problems: dict[str, str] = {}
     for name, read in _READERS.items():
         try:
-            text_of_it = _once(given.getlist(name))
-            if text_of_it:
-                spec[name] = read(text_of_it)
+            told = _once(given.getlist(name))
+            if told:
+                spec[name] = read(told)
         except _Unreadable as unreadable:
             problems[name] = f"{name} {unreadable}."
     if ("rows" in spec) != ("cols" in spec) and not {"rows", "cols"} & set(problems):
