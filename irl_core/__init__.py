@@ -29,14 +29,7 @@ from irl_core.evaluation import (
 )
 from irl_core.features import FeatureMap, features_of
 from irl_core.files import DemonstrationFile, WorldSection, read_demonstration_file, write_demonstration_file
-from irl_core.gridworld import (
-    GENERATOR_VERSION,
-    draw_playable_world,
-    generate_world,
-    simulate,
-    slip_direction,
-    success_is_possible,
-)
+from irl_core.gridworld import GENERATOR_VERSION, draw_playable_world, generate_world, success_is_possible
 from irl_core.inference import BatchInferred, Inferred, infer, infer_batch
 from irl_core.learners import (
     DEFAULT_LEARNERS,
@@ -54,6 +47,7 @@ from irl_core.learners import (
 from irl_core.mdp import GridMdp, Mdp, SparseMdp
 from irl_core.mdp.toy_text import from_gymnasium
 from irl_core.planning import HardPlan, SoftPlan, hard_plan, soft_plan, spectral_radius, visitation
+from irl_core.playing import simulate, slip_direction
 from irl_core.trajectories import demonstration_of
 from irl_core.types import Demonstration, Ranking, World
 from irl_core.warm import warm_up

@@ -23,7 +23,7 @@ from typing import Any, Final, NoReturn, TypeAlias
 
 from irl_core.checks import Refused, finite, identifier, shown
 from irl_core.errors import InvalidFile, InvalidRanking, IrlError
-from irl_core.gridworld import simulate
+from irl_core.playing import simulate
 from irl_core.types import Demonstration, DemonstrationOutcome, Ranking, World, check_demonstrations, check_world
 
 MAX_LINES: Final = 100_000

@@ -9,9 +9,9 @@ from typing import Final
 
 import numpy as np
 
-from irl_core.gridworld import simulate
 from irl_core.inference import INFERENCE_KINDS, infer, infer_batch
 from irl_core.learners import LEARNERS, LearningProblem, Settings, learn
+from irl_core.playing import simulate
 from irl_core.types import Ranking, World
 
 _WALKS: Final = {"a": [0, 1, 2, 5, 8], "b": [0, 1, 4, 5, 8], "c": [0, 3, 6, 7, 8], "d": [0, 3, 4, 7, 8]}

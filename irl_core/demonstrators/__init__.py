@@ -19,7 +19,7 @@ from irl_core.demonstrators import kinds
 from irl_core.demonstrators.play import Laws, play
 from irl_core.demonstrators.ranking import rank_by_total
 from irl_core.errors import InvalidSettings
-from irl_core.gridworld import simulate
+from irl_core.playing import simulate
 from irl_core.types import OUTCOMES, Demonstration, DemonstrationOutcome, Ranking, World, check_world
 
 MOST_ATTEMPTS: Final = 300

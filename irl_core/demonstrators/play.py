@@ -11,7 +11,7 @@ from typing import TypeAlias
 import numpy as np
 
 from irl_core.arrays import IntVector
-from irl_core.gridworld import slip_direction
+from irl_core.playing import slip_direction
 from irl_core.types import World
 
 Laws: TypeAlias = np.ndarray[tuple[int, int, int], np.dtype[np.float64]]

@@ -14,7 +14,7 @@ from irl_core import _kernels
 from irl_core.demonstrators import demonstrate
 from irl_core.errors import InvalidModel, IrlError, MissingDemonstrations
 from irl_core.evaluation import expected_return, greedy_plan, optimum
-from irl_core.gridworld import draw_playable_world, simulate
+from irl_core.gridworld import draw_playable_world
 from irl_core.learners import LearningProblem, LearningResult, LearningState, Outcome, Settings, learn
 from irl_core.learners.birlfr import Birlfr
 from irl_core.learners.birlfr.chain import Chain
@@ -22,6 +22,7 @@ from irl_core.learners.birlfr.decision import best_actions
 from irl_core.learners.birlfr.model import Model
 from irl_core.mdp import GridMdp
 from irl_core.planning import soft_plan
+from irl_core.playing import simulate
 from irl_core.trajectories import demonstration_of
 from irl_core.types import Ranking, World
 from tests.core import naive_birlfr
