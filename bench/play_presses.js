@@ -18,6 +18,7 @@
     if (hasMoved || nFrames > 120) {
       press.nFrames = hasMoved ? nFrames : null;
       press.state = Number(agent().dataset.state);
+      press.nPressed = presses.length; // a frame that is late shows the presses after it too
       waiting.push(press);
       channel.port2.postMessage(null); // answered right after this frame
     } else requestAnimationFrame(() => look(press, before, [right, down], nFrames + 1));
@@ -29,7 +30,7 @@
       const axis = AXES[event.key];
       if (!axis || !event.isTrusted) return;
       const before = agent().getBoundingClientRect();
-      const press = { at: event.timeStamp, state: null, nFrames: null, frameMs: null };
+      const press = { at: event.timeStamp, state: null, nPressed: null, nFrames: null, frameMs: null };
       presses.push(press);
       // Heard last, so that the page's callback for the next frame stands before ours.
       addEventListener("keydown", () => requestAnimationFrame(() => look(press, before, axis, 1)), { once: true });
