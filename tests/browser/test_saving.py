@@ -3,6 +3,7 @@
 Contexts whose server goes away are not watched: the browser itself reports the requests that failed on its console.
 """
 
+import itertools
 import json
 import os
 import signal
@@ -27,6 +28,19 @@ READ = """async (name) => {
 WRITE = """async ([name, item]) => {
   const { browserStorage } = await import("#js/lib/storage.js");
   await browserStorage.run([name], "readwrite", (store) => void store(name).put(item));
+}"""
+
+TAKE_TURNS = """() => {
+  const turn = async () => {
+    const begin = Date.now();
+    await new Promise((resolve) => setTimeout(resolve, 40));
+    return [begin, Date.now()];
+  };
+  window.turns = (async () => {
+    const { inTurn } = await import("#js/lib/locks.js");
+    const { browserStorage } = await import("#js/lib/storage.js");
+    return Promise.all([1, 2].map(() => inTurn("irlfr:test", browserStorage, turn)));
+  })();
 }"""
 
 Json = dict[str, Any]
@@ -95,6 +109,15 @@ def expect_stored(server: LiveServer, parcels: list[Json]) -> None:
         assert has["actions"] == told["actions"]
         assert has["step_ms"] == told["step_ms"]
         assert has.get("record") == told.get("record")
+
+
+def expect_turns(tabs: list[Page]) -> None:
+    """What only one tab may do at a time, only one does."""
+    for page in tabs:
+        page.evaluate(TAKE_TURNS)
+    turns = sorted(tuple(turn) for page in tabs for turn in page.evaluate("window.turns"))
+    assert len(turns) == 2 * len(tabs)
+    assert all(end <= begin for (_, end), (begin, _) in itertools.pairwise(turns))
 
 
 def test_six_attempts_arrive_once_each_though_the_server_was_away_when_the_page_was_closed(
@@ -240,6 +263,7 @@ def test_strangers_in_two_tabs_who_finish_at_once_are_one_visitor(away: BrowserC
     there = stored(home, walk.page_data(tabs[0])["world"]["id"])
     assert len(there) == 3
     assert len({one["visitor_id"] for one in there.values()}) == 1
+    expect_turns(tabs)
 
 
 def test_a_page_closed_while_its_attempt_is_under_way_sends_it_once(away: BrowserContext, home: LiveServer) -> None:
@@ -456,6 +480,7 @@ def test_over_plain_http_in_a_class_room_nothing_is_lost_either(launch_browser: 
     there = stored(home, walk.page_data(tabs[0])["world"]["id"])
     assert len(there) == 3
     assert len({one["visitor_id"] for one in there.values()}) == 1
+    expect_turns(tabs)
 
     tabs[0].reload()
     expect_sync(tabs[0], "saved")
