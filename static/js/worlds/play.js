@@ -5,7 +5,7 @@ import { describePosition, describeSquare, describeWay } from "#js/board/describ
 import { facingOf } from "#js/board/facing.js";
 import { listenToKeys, listenToPointer } from "#js/board/input.js";
 import { outcomeOf, totalOf } from "#js/board/moves.js";
-import { DELTAS, DIRECTIONS, nextState, placeOf } from "#js/board/state.js";
+import { DELTAS, DIRECTIONS, nextState, placeOf, rewardOf } from "#js/board/state.js";
 import { announce } from "#js/lib/announce.js";
 import { byId } from "#js/lib/dom.js";
 import { number, signed } from "#js/lib/format.js";
@@ -16,6 +16,7 @@ import { Client } from "#js/worlds/client.js";
 import { Collection } from "#js/worlds/collection.js";
 import { Feedback } from "#js/worlds/feedback.js";
 import { listenToGamepad } from "#js/worlds/gamepad.js";
+import { keepInSight } from "#js/worlds/in-sight.js";
 import { LeftBehind } from "#js/worlds/left-behind.js";
 import { startOptions } from "#js/worlds/options.js";
 import { offerPractice, startPractice } from "#js/worlds/practice.js";
@@ -47,6 +48,8 @@ class PlayPage {
   #feedback = new Feedback();
   #surroundings = new Surroundings(this.#board, this.#world);
   #numbers = false;
+  #withdrawPractice = () => {};
+  #bringIntoSight = keepInSight(this.#board, this.#life.signal);
   /** @type {ReplayBar} */
   #replay;
   #collection;
@@ -54,7 +57,11 @@ class PlayPage {
 
   constructor() {
     this.#board.world = this.#world;
-    this.#replay = new ReplayBar(this.#board, this.#options, this.#life.signal);
+    this.#replay = new ReplayBar(this.#board, {
+      showTotals: this.#options.showTotals,
+      onShow: (entry, at) => this.#scoreboard.show(rewardsOf(this.#world, entry.states.slice(0, at + 1))),
+      signal: this.#life.signal,
+    });
     this.#collection = new Collection(this.#data, this.#nWanted, {
       replay: (entry, n) => this.#startReplay(entry, n),
       showTotals: this.#options.showTotals,
@@ -81,11 +88,12 @@ class PlayPage {
     if (this.#shows === "replay") return this.#steerReplay(action);
     if (this.#session.isOver) return false;
     if (!this.#session.hasOwnSteps) this.#collection.shareQuery();
+    if (device === "key" || device === "gamepad") this.#bringIntoSight();
     const done = this.#session.move(action, { when, device, paintedAt: this.#board.paintedAt });
     this.#show();
     if (done) this.#tellStep(done);
     this.#keepOrFinish(when);
-    return !this.#session.isOver;
+    return !this.#session.isOver && done?.isBump === false;
   }
 
   /** A tap on a square beside the agent is a step to it; on a replay it pauses. @param {number} state @param {Press} press */
@@ -205,6 +213,7 @@ class PlayPage {
     this.#leftBehind.show();
     if (outcome === "success") this.#board.celebrate(state);
     this.#feedback.finish(outcome);
+    this.#withdrawPractice();
     announce(`${title}. ${text} Enter plays again.`);
   }
 
@@ -242,16 +251,15 @@ class PlayPage {
 
   #show() {
     const { attempt, state } = this.#session;
-    const { numbers, cursor } = { numbers: this.#numbers, cursor: null };
     const last = attempt.actions.length;
     this.#board.view = {
-      numbers,
+      numbers: this.#numbers,
       paths: [{ states: attempt.states, who: "human", width: 0.35, fade: attempt.ending === null }],
       agents: [{ state, who: "human", facing: facingOf(this.#world, attempt, last) }],
     };
-    this.#board.cursor = cursor;
+    this.#board.cursor = null;
     this.#board.dataset.state = String(state);
-    this.#scoreboard.show(attempt);
+    this.#scoreboard.show(attempt.rewards);
     this.#scoreboard.showTime(this.#session.timeLeft(performance.now()));
     this.#surroundings.show(state);
     const hasNone = !this.#session.hasOwnSteps || this.#session.isOver;
@@ -323,12 +331,17 @@ class PlayPage {
   #offerHelp() {
     const { signal } = this.#life;
     const feedback = this.#feedback;
-    const toBoard = () => this.#board.focus({ preventScroll: true });
     const dialog = /** @type {HTMLDialogElement} */ (byId("practice"));
-    const practise = () => startPractice({ dialog, feedback, onDone: toBoard });
-    offerPractice({ practise, onSkip: toBoard });
+    const practise = () => startPractice({ dialog, feedback, onDone: () => this.#comeToBoard() });
+    this.#withdrawPractice = offerPractice({ practise, onSkip: () => this.#comeToBoard() });
     startOptions({ feedback, practise, signal });
     if (this.#world.spec) byId("design").setAttribute("href", `/worlds/new?${toQuery(this.#world.spec)}`);
+  }
+
+  /** Whoever practised or read first begins to think about this board now. */
+  #comeToBoard() {
+    if (!this.#session.hasOwnSteps && !this.#session.isOver) this.#session.begin(performance.now());
+    this.#board.focus({ preventScroll: true });
   }
 
   /** @param {MouseEvent} event */
@@ -359,6 +372,11 @@ class PlayPage {
     byId("numbers").setAttribute("aria-pressed", String(this.#numbers));
     this.#board.view = { ...this.#board.view, numbers: this.#numbers };
   }
+}
+
+/** What was paid on a walk. @param {import("#js/board/state.js").World} world @param {readonly number[]} states */
+function rewardsOf(world, states) {
+  return states.slice(1).map((state) => rewardOf(world, state));
 }
 
 new PlayPage().start();

@@ -15,19 +15,26 @@ const SPEEDS = [0.5, 1, 2, 4, 8];
 export class ReplayBar {
   #world;
   #showTotals;
+  #onShow;
   #replay;
   #bar = byId("replay");
   #range = /** @type {HTMLInputElement} */ (byId("replay-at"));
+  #speed = /** @type {HTMLSelectElement} */ (byId("replay-speed"));
   /** @type {Entry | null} */
   #entry = null;
   #name = "";
 
-  /** @param {import("#js/elements/irl-board.js").IrlBoard} board @param {{showTotals: boolean}} options @param {AbortSignal} signal */
-  constructor(board, { showTotals }, signal) {
+  /**
+   * @param {import("#js/elements/irl-board.js").IrlBoard} board
+   * @param {{showTotals: boolean, onShow: (entry: Entry, at: number) => void, signal: AbortSignal}} options  `onShow`: after every step
+   */
+  constructor(board, { showTotals, onShow, signal }) {
     this.#world = /** @type {import("#js/board/state.js").World} */ (board.world);
     this.#showTotals = showTotals;
+    this.#onShow = onShow;
     this.#replay = new Replay(board, () => this.#show());
     this.#range.addEventListener("input", () => this.#replay.seek(Number(this.#range.value)), { signal });
+    this.#speed.addEventListener("change", () => this.#setSpeed(Number(this.#speed.value)), { signal });
     this.#bar.addEventListener("click", (event) => this.#onClick(event), { signal });
   }
 
@@ -76,7 +83,7 @@ export class ReplayBar {
   changeSpeed(by) {
     const index = SPEEDS.indexOf(this.#replay.speed) + by;
     const speed = SPEEDS[Math.min(SPEEDS.length - 1, Math.max(0, index))] ?? 1;
-    this.#replay.speed = speed;
+    this.#setSpeed(speed);
     announce(`${speed} times.`);
   }
 
@@ -84,31 +91,32 @@ export class ReplayBar {
   #onClick(event) {
     const button = event.target instanceof Element ? event.target.closest("button") : null;
     if (!button || !this.#entry) return;
-    const { speed, replay } = button.dataset;
-    if (speed !== undefined) this.#replay.speed = Number(speed);
-    else if (replay === "toggle") this.toggle();
+    const { replay } = button.dataset;
+    if (replay === "toggle") this.toggle();
     else if (replay === "back") this.nudge(-1);
     else if (replay === "on") this.nudge(1);
   }
 
+  /** @param {number} speed */
+  #setSpeed(speed) {
+    this.#replay.speed = speed;
+    this.#speed.value = String(speed);
+  }
+
   #show() {
     if (!this.#entry) return;
-    const { at, isPlaying, speed } = this.#replay;
+    const { at, isPlaying } = this.#replay;
     this.#bar.dataset.playing = String(isPlaying);
     byId("replay-toggle").setAttribute("aria-label", isPlaying ? "Pause" : "Play");
     this.#range.value = String(at);
     this.#range.setAttribute("aria-valuetext", this.#words());
-    byId("replay-words").textContent = this.#words();
+    this.#onShow(this.#entry, at);
     /** @type {HTMLButtonElement} */ (byId("branch")).disabled = !this.canBranch;
-    for (const button of this.#bar.querySelectorAll("[data-speed]")) {
-      const isOn = Number(/** @type {HTMLElement} */ (button).dataset.speed) === speed;
-      button.setAttribute("aria-pressed", String(isOn));
-    }
   }
 
   #words() {
     const { at, nSteps } = this.#replay;
     const rewards = this.#entry?.states.slice(1, at + 1).map((state) => rewardOf(this.#world, state)) ?? [];
-    return `step ${at} of ${nSteps}${this.#showTotals ? ` · ${signed(exactSum(rewards))}` : ""}`;
+    return `Step ${at} of ${nSteps}${this.#showTotals ? `, total ${signed(exactSum(rewards))}` : ""}`;
   }
 }

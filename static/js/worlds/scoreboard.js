@@ -1,6 +1,6 @@
-/** The figures of the attempt being played: total, steps, the last step's cost, the time that is left. */
+/** The figures of the attempt on the board: total, steps, the last step's cost, the time that is left. */
 
-import { totalOf } from "#js/board/moves.js";
+import { exactSum } from "#js/lib/exact-sum.js";
 import { number, plural, signed } from "#js/lib/format.js";
 
 /** Said when this much is left (s), by what is left of the limit. */
@@ -19,11 +19,11 @@ export class Scoreboard {
     this.#announce = announce;
   }
 
-  /** @param {import("#js/board/moves.js").Attempt} attempt */
-  show(attempt) {
-    const reward = attempt.rewards.at(-1);
-    if (this.#total) this.#total.textContent = number(totalOf(attempt));
-    this.#nSteps.textContent = String(attempt.actions.length);
+  /** @param {readonly number[]} rewards  of the steps made */
+  show(rewards) {
+    const reward = rewards.at(-1);
+    if (this.#total) this.#total.textContent = number(exactSum(rewards));
+    this.#nSteps.textContent = String(rewards.length);
     this.#lastStep.textContent = reward === undefined ? "–" : signed(reward);
   }
 
