@@ -32,7 +32,7 @@ class Settings(BaseSettings):
     )
     max_body_bytes: Annotated[int, Field(ge=1024)] = Field(
         default=2_000_000,
-        description="The largest request body accepted, in bytes; the longest attempt takes 1.2 million.",
+        description="The largest request body accepted, in bytes; the longest attempt takes 1.1 million.",
     )
     write_queue_length: Annotated[int, Field(ge=1)] = Field(
         default=1000, description="How many writes may wait for the disk before the server answers 503."
