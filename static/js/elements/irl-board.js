@@ -170,12 +170,6 @@ export class IrlBoard extends HTMLElement {
     this.#effects.celebrate(this.#world, state);
   }
 
-  /** The older name of a celebration where the first agent stands. */
-  hop() {
-    const state = this.#view.agents[0]?.state;
-    if (state !== undefined) this.celebrate(state);
-  }
-
   /** What was assigned before the browser knew this element hides the accessor: assign it again. @param {"world" | "view" | "cursor"} name */
   #adopt(name) {
     if (!Object.hasOwn(this, name)) return;
