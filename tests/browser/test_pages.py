@@ -85,6 +85,8 @@ def test_pictures(browser: Browser, base_url: str, screenshots: Path | None, dev
             if name == "compare":
                 halfway(page)
             take(page, screenshots / f"{name}-{device}-{scheme}.png")
+        page.goto("/worlds/new?rows=7&cols=9&seed=5&walls=12,21,30-32&goals=62,17&painted=24-25:-6")
+        take(page, screenshots / f"editor-{device}-{scheme}.png")
         page.goto("/docs")
         take(page, screenshots / f"docs-{device}-{scheme}.png")
     page.goto("/nowhere")  # no longer watched: the browser itself reports the 404 on its console

@@ -1,4 +1,4 @@
-/** The sheet "Options" of the play page: sound, vibration, and the practice once more. */
+/** The sheet "Options" of the play page: sound, vibration, the practice once more, one's own data. */
 
 import { byId } from "#js/lib/dom.js";
 import { canVibrate } from "#js/worlds/feedback.js";
@@ -31,6 +31,9 @@ export function startOptions({ feedback, practise, signal }) {
     },
     { signal },
   );
+  // A world that nobody has finished an attempt in is not stored, and has no table yet.
+  const showData = () => byId("steps-csv").toggleAttribute("hidden", !location.pathname.startsWith("/worlds/"));
+  sheet.addEventListener("toggle", showData, { signal });
   closeLightly(sheet, signal);
 }
 
