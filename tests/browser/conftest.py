@@ -103,6 +103,18 @@ class watched:  # noqa: N801 - used as a verb: `with watched(page, address):`
             self.faults.append(f"left the origin: {request.url}")
 
 
+@pytest.fixture
+def phone(browser: Browser, base_url: str) -> Iterator[Page]:
+    """A phone's page, watched alike."""
+    context = browser.new_context(
+        base_url=base_url, viewport={"width": 360, "height": 740}, has_touch=True, is_mobile=True, device_scale_factor=2
+    )
+    page = context.new_page()
+    with watched(page, base_url):
+        yield page
+    context.close()
+
+
 @pytest.fixture(scope="session")
 def screenshots(pytestconfig: pytest.Config) -> Path | None:
     """Where screenshots go: docs/screenshots, if asked for by --screenshots."""

@@ -1,7 +1,5 @@
 """The first minute: the practice by keyboard, touch and gamepad, enlarged, and remembered."""
 
-from collections.abc import Iterator
-
 import pytest
 from playwright.sync_api import Browser, Page, Request, expect
 
@@ -14,17 +12,6 @@ UP, RIGHT, DOWN = 0, 1, 2
 OVER_BLUE = [UP, RIGHT, RIGHT, RIGHT, DOWN]
 THROUGH_RED = [RIGHT, RIGHT, RIGHT]
 FRONT_DOOR = "/?seed=5"
-
-
-@pytest.fixture
-def phone(browser: Browser, base_url: str) -> Iterator[Page]:
-    context = browser.new_context(
-        base_url=base_url, viewport={"width": 360, "height": 740}, has_touch=True, is_mobile=True, device_scale_factor=2
-    )
-    page = context.new_page()
-    with watched(page, base_url):
-        yield page
-    context.close()
 
 
 def test_somebody_new_practises_by_keyboard_alone(page: Page) -> None:

@@ -1,24 +1,10 @@
 """A person with a phone: the pad, swipes, and dragging by finger."""
 
 import re
-from collections.abc import Iterator
 
-import pytest
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Page, expect
 
 from tests.browser import walk
-from tests.browser.conftest import watched
-
-
-@pytest.fixture
-def phone(browser: Browser, base_url: str) -> Iterator[Page]:
-    context = browser.new_context(
-        base_url=base_url, viewport={"width": 360, "height": 740}, has_touch=True, is_mobile=True, device_scale_factor=2
-    )
-    page = context.new_page()
-    with watched(page, base_url):
-        yield page
-    context.close()
 
 
 def test_a_person_goes_all_the_way_on_a_phone(phone: Page) -> None:

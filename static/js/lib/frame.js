@@ -1,6 +1,7 @@
 /** What every page shares: the theme, the dialog of keys, the menu of worlds, the link to share. An entry script. */
 
 import { announce } from "#js/lib/announce.js";
+import { copyText } from "#js/lib/clipboard.js";
 import { isTaken } from "#js/lib/keys.js";
 import { nextTheme, THEME_WORDS, themeChoice } from "#js/lib/theme.js";
 
@@ -45,7 +46,7 @@ menu.querySelector("form")?.addEventListener("formdata", (event) => {
 share.addEventListener("click", async () => {
   const word = /** @type {HTMLElement} */ (document.getElementById("share-word"));
   const url = share.dataset.url ?? location.href;
-  const isCopied = await copy(new URL(url, location.href).href);
+  const isCopied = await copyText(new URL(url, location.href).href);
   word.textContent = isCopied ? "Copied" : "Copy failed";
   share.dataset.told = "true";
   announce(isCopied ? "The link is copied." : "The link could not be copied; it stands in the address bar.");
@@ -63,14 +64,4 @@ function closeMenu() {
 function labelTheme() {
   themeButton.setAttribute("aria-label", `Theme: ${THEME_WORDS[themeChoice()]}`);
   themeButton.title = `Theme: ${THEME_WORDS[themeChoice()]}`;
-}
-
-/** @param {string} text */
-async function copy(text) {
-  try {
-    await navigator.clipboard.writeText(text);
-    return true;
-  } catch {
-    return false;
-  }
 }

@@ -2,6 +2,7 @@
 
 import { announce } from "#js/lib/announce.js";
 import { ApiError } from "#js/lib/api.js";
+import { copyText } from "#js/lib/clipboard.js";
 import { byId } from "#js/lib/dom.js";
 import { disableLink, enableLink } from "#js/lib/path.js";
 import { GONE } from "#js/worlds/editor/sentences.js";
@@ -62,7 +63,7 @@ export class Sharing {
   async #share() {
     await this.#trying(async () => {
       const link = await this.#address.link();
-      const isCopied = await copy(link);
+      const isCopied = await copyText(link);
       this.#tell(
         isCopied ? "The link is copied: it opens this world to play." : `The link to play this world: ${link}`,
       );
@@ -84,15 +85,5 @@ export class Sharing {
     this.#told.textContent = sentence;
     this.#told.hidden = false;
     announce(sentence);
-  }
-}
-
-/** @param {string} text */
-async function copy(text) {
-  try {
-    await navigator.clipboard.writeText(text);
-    return true;
-  } catch {
-    return false;
   }
 }
