@@ -11,14 +11,12 @@ from tests.browser.conftest import watched
 STAGE = """
 async ({ n, width, argument }) => {
   await import("#js/elements/irl-board.js");
-  const given = document.getElementById("board").world;
-  const square = (state) => given.rewards[Math.floor(state / n) % given.rows][state % n % given.cols];
   const rows = (of) => Array.from({ length: n }, (_, row) => Array.from({ length: n }, (_, col) => of(row * n + col)));
   const goal = n * n - 1;
-  const reward = (state) => (state === goal ? 2 * n : Math.min(0, square(state)));
+  const reward = (state) => (state === goal ? 2 * n : -((state * 37) % 70) / 10);
   const colour = (state) => (state === goal ? "goal" : reward(state) < -1 ? "red" : "blue");
-  const world = { ...given, rows: n, cols: n, start: 0, goal, goals: [goal], walls: [],
-                  rewards: rows(reward), colours: rows(colour) };
+  const world = { id: "of-this-test", slip: 0, horizon: 2 * n * n, rows: n, cols: n, start: 0,
+                  goal, goals: [goal], walls: [], rewards: rows(reward), colours: rows(colour) };
   const board = document.createElement("irl-board");
   board.style.inlineSize = `${width}px`;
   board.world = world;
@@ -40,7 +38,7 @@ async ({ n, width, argument }) => {
 
 
 def on_a_board(page: Page, action: str, *, n: int = 7, width: int = 350, argument: object = None) -> Any:
-    page.goto("/?seed=11")
+    page.goto("/docs")
     return page.evaluate(STAGE.replace("ACTION", action), {"n": n, "width": width, "argument": argument})
 
 
@@ -241,10 +239,14 @@ async ({ board, frame, stand }) => {
     await frame();
     seen.push([host.hidden, near.world?.cols, Number(near.querySelector(".agent")?.dataset.state)]);
   }
+  board.float(550, "−1.0", "loss");
+  board.cursor = 551;
+  const told = [near.querySelector(".board-float")?.textContent, board.querySelector(".board-float"), near.cursor];
   board.style.inlineSize = "1500px";
   await frame();
   await frame();
-  return { seen, isHiddenWhenLarge: host.hidden };
+  board.float(550, "−1.0", "loss");
+  return { seen, told, isHiddenWhenLarge: host.hidden, isToldOnBoard: board.querySelector(".board-float") !== null };
 }
 """
 
@@ -253,11 +255,13 @@ def test_a_close_up_shows_the_squares_around_the_agent_where_they_are_small(page
     found = on_a_board(page, CLOSE_UP, n=100, width=500)
     # From the corner the first two squares; then, five rows down, the middle of nine.
     assert found["seen"] == [[False, 9, 0], [False, 9, 1], [False, 9, 40]]
-    assert found["isHiddenWhenLarge"]
+    assert found["told"] == ["−1.0", None, 41], "costs and the cursor are shown where they can be seen"
+    assert (found["isHiddenWhenLarge"], found["isToldOnBoard"]) == (True, True)
 
 
 def test_a_board_of_large_squares_has_no_close_up(page: Page) -> None:
-    assert all(is_hidden for is_hidden, *_ in on_a_board(page, CLOSE_UP, n=24, width=500)["seen"])
+    action = CLOSE_UP.replace("550", "50").replace("551", "51")
+    assert all(is_hidden for is_hidden, *_ in on_a_board(page, action, n=24, width=500)["seen"])
 
 
 def test_the_board_can_be_read_as_a_table(page: Page) -> None:

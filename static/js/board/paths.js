@@ -66,11 +66,30 @@ function drawLines({ context, world }, path, { at, stroke, box }) {
     context.lineWidth = stroke.width * size;
     context.globalAlpha = stroke.opacity * (path.fade ? FAINTEST : 1);
     context.stroke(trace(settled, at));
-    for (const edge of fading) {
+    context.lineCap = "butt";
+    for (const [i, edge] of fading.entries()) {
       context.globalAlpha = stroke.opacity * strengthOf(edge.age);
-      context.stroke(trace([edge], at));
+      context.stroke(traceBend(edge, { before: fading[i - 1], after: fading[i + 1] }, at));
     }
+    context.lineCap = "round";
   }
+}
+
+/**
+ * From the middle of a line to the middle of the one that follows: where translucent lines met at the corners they
+ * would overlap there, and each square would have its dot.
+ * @param {Edge} edge @param {{before: Edge | undefined, after: Edge | undefined}} beside @param {At} at
+ */
+function traceBend({ from, to }, { before, after }, at) {
+  const middle = (/** @type {number} */ a, /** @type {number} */ b) => {
+    const [[x, y], [toX, toY]] = [at(a), at(b)];
+    return /** @type {const} */ ([(x + toX) / 2, (y + toY) / 2]);
+  };
+  const line = new Path2D();
+  line.moveTo(...(before?.to === from ? middle(from, to) : at(from)));
+  line.lineTo(...at(to));
+  if (after?.from === to) line.lineTo(...middle(to, after.to));
+  return line;
 }
 
 /** @param {Edge[]} edges @param {At} at */

@@ -10,10 +10,11 @@ import { Painter } from "#js/board/painter.js";
 import { EMPTY_VIEW } from "#js/board/state.js";
 import { figureTags } from "#js/board/tags.js";
 import { onThemeChange } from "#js/board/theme.js";
-import { isTaken } from "#js/lib/keys.js";
+import { isTaken, letterOf } from "#js/lib/keys.js";
 
 /** @typedef {import("#js/board/state.js").World} World */
 /** @typedef {import("#js/board/state.js").View} View */
+/** @typedef {import("#js/board/close-up.js").CloseUpOf} CloseUpOf */
 
 const SMALLEST_WHOLE_CELL = 4;
 /** On squares smaller than this (CSS pixels) the agent is drawn larger than its square. */
@@ -38,6 +39,8 @@ export class IrlBoard extends HTMLElement {
   #pointed = null;
   /** @type {number | null} */
   #cursor = null;
+  /** @type {CloseUpOf | null} */
+  #closeUp = null;
   #paintedAt = Number.NaN;
 
   connectedCallback() {
@@ -82,7 +85,7 @@ export class IrlBoard extends HTMLElement {
     this.#world = world;
     if (world) this.style.setProperty("--board-ratio", `${world.cols} / ${world.rows}`);
     this.cursor = null;
-    this.frame = null;
+    this.closeUp = null;
     this.#resize();
     this.#paintedAt = Number.NaN;
     this.#redrawAll();
@@ -120,11 +123,13 @@ export class IrlBoard extends HTMLElement {
   set cursor(state) {
     this.#cursor = state;
     if (this.#world) this.#effects.pointAt(this.#world, state);
+    this.#tell();
   }
 
-  /** The squares that a close-up shows, or null. @param {import("#js/board/crop.js").Window | null} window */
-  set frame(window) {
-    if (this.#world) this.#effects.frame(this.#world, window);
+  /** Who shows some squares large takes over what would be too small to see here. @param {CloseUpOf | null} closeUp */
+  set closeUp(closeUp) {
+    this.#closeUp = closeUp;
+    if (this.#world) this.#effects.frame(this.#world, closeUp?.window ?? null);
   }
 
   /** Side of a square in CSS pixels; 0 before there is room for one. */
@@ -155,12 +160,14 @@ export class IrlBoard extends HTMLElement {
     const state = this.#view.agents[0]?.state;
     if (!this.#world || state === undefined) return;
     this.#agents.lean(direction);
-    this.#effects.bump(this.#world, state, direction);
+    if (this.#closeUp) this.#closeUp.bump(direction);
+    else this.#effects.bump(this.#world, state, direction);
   }
 
   /** Let a short text rise from a square and fade (a cost, a reward). @param {number} state @param {string} text @param {"gain" | "loss"} kind */
   float(state, text, kind) {
-    if (this.#world) this.#effects.float(this.#world, state, text, kind);
+    if (this.#closeUp) this.#closeUp.float(state, text, kind);
+    else if (this.#world) this.#effects.float(this.#world, state, text, kind);
   }
 
   /** Quiet joy around a square, for less than a second. @param {number} state */
@@ -178,7 +185,7 @@ export class IrlBoard extends HTMLElement {
     /** @type {any} */ (this)[name] = value;
   }
 
-  /** World, view or size are others: whoever shows a part of this board draws it in the same frame. */
+  /** World, view, cursor or size are others: whoever shows a part of this board draws it in the same frame. */
   #tell() {
     this.dispatchEvent(new Event("board:changed"));
   }
@@ -255,7 +262,7 @@ export class IrlBoard extends HTMLElement {
 
   /** @param {KeyboardEvent} event @param {boolean} isDown */
   #onKey(event, isDown) {
-    if (event.key.toLowerCase() !== "n" || event.repeat || (isDown && isTaken(event))) return;
+    if (letterOf(event) !== "n" || event.repeat || (isDown && isTaken(event, this.closest("dialog")))) return;
     this.#holdNumbers(isDown);
   }
 
