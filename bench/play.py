@@ -16,14 +16,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from playwright.sync_api import Browser, Page, Response, sync_playwright
+from playwright.sync_api import Browser, Error, Page, Response, sync_playwright
 
 from bench.measure import Figure, at_most
 from tests.browser.conftest import CHROMIUM_FLAGS, find_chromium
 from tests.live_server import LiveServer
 
 HERE = Path(__file__).parent
-FRAME_MS = 1000 / 60
+FRAME_MS = 16.7
+TWO_FRAMES_MS = 33
 N_PRESSES = 300
 N_PRESSES_PER_ATTEMPT = 40
 LATENCY_MS = 400
@@ -47,6 +48,10 @@ class Presses:
 
 def measure() -> Iterator[Figure]:
     with tempfile.TemporaryDirectory() as name, _server(Path(name)) as server, _browser() as browser:
+        if browser is None:
+            reason = "Chromium cannot be started; name one by E2E_CHROMIUM"
+            yield at_most("key to frame", [], target=TWO_FRAMES_MS, unit="ms", reference=reason)
+            return
         yield from _measure_load(browser, server)
         yield from _measure_boards(browser, server)
         for size in SIZES:
@@ -64,8 +69,8 @@ def _measure_presses(browser: Browser, server: LiveServer, size: int) -> Iterato
         event = percentile(presses.event_ms, 0.99)
         slow = f"{sum(n > 1 for n in presses.n_frames)} of {len(presses.n_frames)} after their first frame"
         reference = f"max {max(presses.frame_ms):.0f} ms, {slow}; Event Timing p99 {event:.0f} ms"
-        yield at_most(f"{name}: p50", [presses.percentile(0.5)], target=2 * FRAME_MS, unit="ms", reference=reference)
-        yield at_most(f"{name}: p99", [presses.percentile(0.99)], target=2 * FRAME_MS, unit="ms", reference=reference)
+        yield at_most(f"{name}: p50", [presses.percentile(0.5)], target=TWO_FRAMES_MS, unit="ms", reference=reference)
+        yield at_most(f"{name}: p99", [presses.percentile(0.99)], target=TWO_FRAMES_MS, unit="ms", reference=reference)
     plain = found.pop("no delay").percentile(0.99)
     for network, presses in found.items():
         more = presses.percentile(0.99) - plain
@@ -211,9 +216,13 @@ def _server(folder: Path) -> Iterator[LiveServer]:
 
 
 @contextmanager
-def _browser() -> Iterator[Browser]:
+def _browser() -> Iterator[Browser | None]:
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=find_chromium(), args=CHROMIUM_FLAGS)
+        try:
+            browser = playwright.chromium.launch(executable_path=find_chromium(), args=CHROMIUM_FLAGS)
+        except Error:
+            yield None
+            return
         yield browser
         browser.close()
 
