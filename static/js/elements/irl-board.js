@@ -270,6 +270,8 @@ export class IrlBoard extends HTMLElement {
   #holdNumbers(isHeld) {
     if (this.#numbersHeld === isHeld) return;
     this.#numbersHeld = isHeld;
+    // Shown or hidden by this key, unless they are shown anyway.
+    if (!this.#view.numbers) this.dispatchEvent(new CustomEvent("board:numbers", { detail: { shown: isHeld } }));
     this.#painter.redrawInk();
     this.#schedule();
   }

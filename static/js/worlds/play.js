@@ -44,12 +44,15 @@ class PlayPage {
   #slot = byId("now");
   #session = new PlaySession({ world: this.#world, newId: uuid, at: performance.now() });
   #client = new Client(this.#options);
-  #scoreboard = new Scoreboard(announce);
+  #scoreboard = new Scoreboard(announce, this.#world.time_limit_s);
   #feedback = new Feedback();
   #surroundings = new Surroundings(this.#board, this.#world);
   #numbers = false;
+  #usualHint = [...byId("hint").childNodes];
+  /** Where the keyboard was when a replay began. @type {HTMLElement | null} */
+  #cameFrom = null;
   #withdrawPractice = () => {};
-  #bringIntoSight = keepInSight(this.#board, this.#life.signal);
+  #bringIntoSight = keepInSight(byId("boards"), this.#life.signal);
   /** @type {ReplayBar} */
   #replay;
   #collection;
@@ -59,7 +62,10 @@ class PlayPage {
     this.#board.world = this.#world;
     this.#replay = new ReplayBar(this.#board, {
       showTotals: this.#options.showTotals,
-      onShow: (entry, at) => this.#scoreboard.show(rewardsOf(this.#world, entry.states.slice(0, at + 1))),
+      onShow: (entry, at) => {
+        this.#scoreboard.show(rewardsOf(this.#world, entry.states.slice(0, at + 1)));
+        this.#surroundings.show(entry.states[at] ?? this.#world.start);
+      },
       signal: this.#life.signal,
     });
     this.#collection = new Collection(this.#data, this.#nWanted, {
@@ -89,6 +95,7 @@ class PlayPage {
     if (this.#session.isOver) return false;
     if (!this.#session.hasOwnSteps) this.#collection.shareQuery();
     if (device === "key" || device === "gamepad") this.#bringIntoSight();
+    this.#forgetHint();
     const done = this.#session.move(action, { when, device, paintedAt: this.#board.paintedAt });
     this.#show();
     if (done) this.#tellStep(done);
@@ -166,6 +173,7 @@ class PlayPage {
   /** @param {string} words */
   #showBeginning(words) {
     this.#slot.dataset.shows = "playing";
+    this.#forgetHint();
     this.#show();
     this.#leftBehind.show();
     this.#board.focus({ preventScroll: true });
@@ -210,6 +218,8 @@ class PlayPage {
     byId("result-title").textContent = `${outcome === "success" ? "✓" : "✗"} ${title}`;
     byId("result-text").textContent = text;
     this.#slot.dataset.shows = "result";
+    // Zoomed in, it lies below the window.
+    this.#slot.scrollIntoView({ block: "nearest" });
     this.#leftBehind.show();
     if (outcome === "success") this.#board.celebrate(state);
     this.#feedback.finish(outcome);
@@ -225,7 +235,15 @@ class PlayPage {
     this.#board.cursor = null;
     // On a phone the list lies below the board.
     this.#board.scrollIntoView({ block: "nearest" });
+    this.#comeFrom(document.activeElement);
     this.#replay.open(entry, n);
+  }
+
+  /** The replay's keys need the board: on the button that began it, Space would begin it anew. @param {Element | null} place */
+  #comeFrom(place) {
+    const isByKeyboard = place instanceof HTMLElement && place !== this.#board && place.matches(":focus-visible");
+    this.#cameFrom = isByKeyboard ? place : null;
+    this.#board.focus({ preventScroll: true });
   }
 
   #endReplay() {
@@ -246,7 +264,10 @@ class PlayPage {
   #commandReplay(command) {
     if (command === "again") this.#replay.toggle();
     else if (command === "branch") this.#branch();
-    else if (command === "endReplay") this.#endReplay();
+    else if (command === "endReplay") {
+      this.#endReplay();
+      this.#cameFrom?.focus();
+    }
   }
 
   #show() {
@@ -279,8 +300,11 @@ class PlayPage {
   }
 
   #tellWhere() {
-    const words = `${describePosition(this.#world, this.#session.state)} ${describeWay(this.#world, this.#session.state)}`;
-    this.#hint(`${words}${this.#totalWords()}`);
+    const shown = this.#replay.shown;
+    const state = shown?.entry.states[shown.at] ?? this.#session.state;
+    const words = `${describePosition(this.#world, state)} ${describeWay(this.#world, state)}`;
+    if (shown) announce(words);
+    else this.#hint(`${words}${this.#totalWords()}`);
   }
 
   /** @param {string} before @param {boolean} [hasPaid] */
@@ -301,6 +325,14 @@ class PlayPage {
     hint.textContent = sentence;
     hint.dataset.isUsual = "false";
     announce(sentence);
+  }
+
+  /** What was said of a square or a moment is over with the next step. */
+  #forgetHint() {
+    const hint = byId("hint");
+    if (hint.dataset.isUsual === "true") return;
+    hint.replaceChildren(...this.#usualHint);
+    hint.dataset.isUsual = "true";
   }
 
   #watchTime() {

@@ -1,0 +1,109 @@
+"""Other ways to a page than a mouse and sharp eyes: who comes, what is heard, what is seen."""
+
+import io
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any, Final
+
+from PIL import Image
+from playwright.sync_api import Browser, Locator, Page, expect
+
+from tests.browser.conftest import watched
+
+#: Three rows of four squares in which every figure is known; the goal pays 7. Right, right costs most.
+SMALL: Final = "/?rows=3&cols=4&seed=5&painted=0-1:-0.5,2:-3.2,3-10:-0.5"
+#: A way to its goal that earns 4.5, and one through its red square that earns 1.8.
+DEAR, CHEAP = [1, 1, 1, 2, 2], [2, 2, 1, 1, 1]
+
+WIDTH: Final = "document.documentElement.scrollWidth"
+LISTEN: Final = """
+  window.heard = [];
+  document.addEventListener("DOMContentLoaded", () => {
+    const region = document.getElementById("announcer");
+    const hear = () => window.heard.push(region.textContent.replace(/\\u00a0$/, ""));
+    new MutationObserver(hear).observe(region, { childList: true, characterData: true, subtree: true });
+  });
+"""
+#: What has the focus: its name for assistive technology, whether its ring shows, whether it can be seen at all.
+FOCUSED: Final = """() => {
+  const here = document.activeElement;
+  const place = here.id === "board" ? here.querySelector(".board-stage") : here;
+  const { outlineStyle, outlineWidth } = getComputedStyle(place);
+  const box = place.getBoundingClientRect();
+  const seen = document.elementFromPoint(box.x + box.width / 2, Math.max(1, box.y + Math.min(box.height, 40) / 2));
+  return {
+    name: here.getAttribute("aria-label") ?? here.textContent.trim().replace(/\\s+/g, " "),
+    isBody: here === document.body,
+    hasRing: outlineStyle !== "none" && parseFloat(outlineWidth) >= 2,
+    isInWindow: box.left >= 0 && box.right <= innerWidth + 1 && box.top < innerHeight && box.bottom > 0,
+    isOnTop: seen !== null && (here.contains(seen) || seen.contains(here)),
+  };
+}"""
+
+
+@contextmanager
+def visit(browser: Browser, address: str, **options: Any) -> Iterator[Page]:
+    """A page of a visitor who comes with a certain screen, finger or wish; it fails on anything amiss."""
+    context = browser.new_context(base_url=address, **options)
+    page = context.new_page()
+    page.add_init_script(LISTEN)
+    with watched(page, address):
+        yield page
+    context.close()
+
+
+def hear(page: Page, act: Callable[[], object]) -> str:
+    """What is said aloud after an act. Give the page LISTEN before it goes anywhere."""
+    page.evaluate("() => { window.heard = []; }")
+    act()
+    page.wait_for_function("window.heard.length > 0")
+    said: str = page.evaluate("window.heard.at(-1)")
+    return said
+
+
+def expect_shows(page: Page, what: str) -> None:
+    """The slot beside the board: "playing", "result" or "replay"."""
+    expect(page.locator("#now")).to_have_attribute("data-shows", what)
+
+
+def expect_state(page: Page, state: int) -> None:
+    """Where the agent is drawn."""
+    expect(page.locator("#board .agent")).to_have_attribute("data-state", str(state))
+
+
+def tab_to(page: Page, goal: Locator, key: str = "Tab") -> list[str]:
+    """Press Tab until something has the focus; on the way the focus is always seen. Returns the names passed."""
+    names = []
+    for _ in range(60):
+        page.keyboard.press(key)
+        found = page.evaluate(FOCUSED)
+        names.append(found["name"])
+        if not found["isBody"]:
+            assert found["hasRing"], f"no ring around {found['name']}"
+            assert found["isInWindow"], f"{found['name']} is out of sight"
+            assert found["isOnTop"], f"{found['name']} is covered"
+        if goal.evaluate("goal => goal === document.activeElement"):
+            return names
+    raise AssertionError(f"Tab does not lead there, only to {names}")
+
+
+def press(page: Page, *keys: str) -> None:
+    for key in keys:
+        page.keyboard.press(key)
+
+
+def picture(page: Page) -> Image.Image:
+    """What is on the screen, in CSS pixels."""
+    return Image.open(io.BytesIO(page.screenshot(scale="css"))).convert("RGB")
+
+
+def contrast(one: tuple[int, ...], other: tuple[int, ...]) -> float:
+    """The contrast of two colours (WCAG 2.2)."""
+    light, dark = sorted((luminance(one), luminance(other)), reverse=True)
+    return (light + 0.05) / (dark + 0.05)
+
+
+def luminance(colour: tuple[int, ...]) -> float:
+    parts = [value / 255 for value in colour]
+    red, green, blue = (part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts)
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
