@@ -3,11 +3,11 @@
 const ENOUGH = 0.98;
 
 /**
- * Returns what brings the board into sight if it is not.
+ * Returns what brings the board into sight unless it is known to be there.
  * @param {Element} board @param {AbortSignal} signal
  */
 export function keepInSight(board, signal) {
-  let isInSight = true;
+  let isInSight = false;
   // Watched rather than measured: a measure at each key press would cost a layout.
   const watch = new IntersectionObserver(
     (entries) => {

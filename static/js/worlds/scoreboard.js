@@ -3,7 +3,7 @@
 import { exactSum } from "#js/lib/exact-sum.js";
 import { number, plural, signed } from "#js/lib/format.js";
 
-/** Said when this much is left (s), by what is left of the limit. */
+/** Said when this much is left (s), or half of a shorter limit. */
 const WARN_AT_S = 10;
 
 export class Scoreboard {
@@ -12,11 +12,13 @@ export class Scoreboard {
   #lastStep = /** @type {HTMLElement} */ (document.getElementById("last-step"));
   #timeLeft = document.getElementById("time-left");
   #announce;
+  #warnAt;
   #hasWarned = false;
 
-  /** @param {(sentence: string) => void} announce */
-  constructor(announce) {
+  /** @param {(sentence: string) => void} announce @param {number | null} [timeLimit]  s */
+  constructor(announce, timeLimit) {
     this.#announce = announce;
+    this.#warnAt = Math.min(WARN_AT_S, (timeLimit ?? Number.POSITIVE_INFINITY) / 2);
   }
 
   /** @param {readonly number[]} rewards  of the steps made */
@@ -34,7 +36,7 @@ export class Scoreboard {
     const words = clock(seconds);
     if (this.#timeLeft.textContent === words) return;
     this.#timeLeft.textContent = words;
-    const isLow = seconds <= WARN_AT_S;
+    const isLow = seconds <= this.#warnAt;
     this.#timeLeft.dataset.low = String(isLow);
     if (isLow && seconds > 0 && !this.#hasWarned) this.#announce(`${plural(seconds, "second")} left.`);
     this.#hasWarned = isLow;
