@@ -282,7 +282,7 @@ def test_a_page_closed_while_its_attempt_is_under_way_sends_it_once(away: Browse
     expect(page.locator("#now")).to_have_attribute("data-shows", "result")
     expect_sync(page, "saved")
     there = stored(home, walk.page_data(page)["world"]["id"])
-    assert sum(one["actions"] == [1, 2] for one in there.values()) == 3
+    assert sum(one["actions"] == [1, 2] for one in there.values()) == 3, there
 
 
 def test_a_busy_server_is_asked_again_when_it_said(away: BrowserContext, home: LiveServer) -> None:
@@ -418,7 +418,8 @@ def test_damaged_storage_is_said_and_stops_nobody(away: BrowserContext, home: Li
         page.reload()
         expect(page.locator('.attempt[data-sync="refused"] .attempt-note')).to_contain_text("damaged")
         give_up(page, [1, 2])
-        expect_sync(page, "saved")
+        expect(page.locator('.attempt[data-sync="saved"]')).to_have_count(1)
+        expect_sync(page, "refused")
         assert [one["id"] for one in kept(page)] == ["p"]
     assert len(stored(home, world_id)) == 1
 

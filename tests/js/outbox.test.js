@@ -212,6 +212,29 @@ test("an attempt in memory goes to the storage as soon as there is room", async 
   assert.deepEqual(await idsIn(store), ["a"]);
 });
 
+test("what the storage did not take survives the closing of the page, until it has arrived", async () => {
+  const straws = new Map();
+  const lastStraw = {
+    keep: (items) => [...items].map((one) => straws.set(one.id, one)),
+    all: () => [...straws.values()],
+    drop: (id) => void straws.delete(id),
+  };
+  const outbox = new Outbox({
+    store: fillable(),
+    lastStraw,
+    wait: () => {},
+    send: async () => {
+      throw offline();
+    },
+  });
+  const adding = outbox.add(parcel("a"));
+  outbox.rescue();
+  assert.deepEqual([...straws.keys()], ["a"]);
+  await adding;
+  await outbox.forget("a");
+  assert.deepEqual([...straws.keys()], []);
+});
+
 test("a damaged parcel is kept and said, and stops nobody", async () => {
   const { outbox, store, sent, news } = make([{ id: "b" }]);
   await store.add({ id: "a", worldId: "w", at: 1, refusal: null, body: "?" });

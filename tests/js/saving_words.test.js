@@ -4,11 +4,12 @@ import { ApiError, retryAfterMs } from "#js/lib/api.js";
 import { uuid } from "#js/lib/uuid.js";
 import { damagedSentence, refusalSentence, savingNews, savingWords } from "#js/worlds/saving-words.js";
 
-const calm = { nAttempts: 1, nWishes: 0, nUnstored: 0, trouble: null };
+const calm = { nAttempts: 1, nWishes: 0, nUnstored: 0, nRefused: 0, trouble: null };
 
 test("saved, saving, offline, busy and in memory alone have each a badge", () => {
   const words = (more) => savingWords({ ...calm, ...more });
   assert.deepEqual(words({ nAttempts: 0 }), { sync: "saved", badge: "✓ all saved", sentence: "" });
+  assert.equal(words({ nAttempts: 0, nRefused: 2 }).badge, "2 not saved");
   assert.equal(words({}).badge, "saving 1 attempt …");
   assert.equal(words({ nAttempts: 0, nWishes: 2 }).badge, "saving 2 changes …");
   const gone = words({ nAttempts: 3, trouble: { status: 0, retryAfterMs: null } });

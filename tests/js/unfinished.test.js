@@ -23,6 +23,12 @@ function makeBrowser(stored = []) {
   const held = new Map();
   const writes = [];
   const gate = { open: Promise.resolve(), isFull: false };
+  const straws = new Map();
+  const lastStraw = {
+    keep: (items) => [...items].map((one) => straws.set(one.id, one)),
+    all: () => [...straws.values()],
+    drop: (id) => void straws.delete(id),
+  };
   const store = {
     put: async (one) => {
       const copy = structuredClone(one);
@@ -38,6 +44,7 @@ function makeBrowser(stored = []) {
   const open = (tab) =>
     new Unfinished(WORLD, {
       drafts: store,
+      lastStraw,
       quiet: async () => {},
       belongings: {
         has: (name) => held.get(name) === tab,
@@ -52,7 +59,7 @@ function makeBrowser(stored = []) {
   const close = (tab) => {
     for (const [name, by] of held) if (by === tab) held.delete(name);
   };
-  return { drafts, writes, gate, open, close };
+  return { drafts, straws, writes, gate, open, close };
 }
 
 const settled = () => new Promise((resolve) => setTimeout(resolve, 5));
@@ -151,4 +158,34 @@ test("a full storage is noticed, and costs nothing but the keeping", async () =>
   await settled();
   assert.equal(tab.lasts, true);
   assert.equal(browser.drafts.get("a").actions.length, 2);
+});
+
+test("what the storage was too slow to take survives the closing of the page", async () => {
+  const browser = makeBrowser();
+  const tab = browser.open("tab");
+  browser.gate.isFull = true;
+  tab.keep(draft("a", 3));
+  await settled();
+  tab.rescue();
+  browser.close("tab");
+  browser.gate.isFull = false;
+  const { drafts } = await browser.open("next").left();
+  assert.deepEqual(
+    drafts.map(({ id, actions }) => [id, actions.length]),
+    [["a", 3]],
+  );
+  assert.deepEqual([...browser.straws], []);
+});
+
+test("what is finished after all leaves no straw behind", async () => {
+  const browser = makeBrowser();
+  const tab = browser.open("tab");
+  browser.gate.isFull = true;
+  tab.keep(draft("a", 3));
+  await settled();
+  tab.rescue();
+  tab.drop("a");
+  tab.rescue();
+  await settled();
+  assert.deepEqual([...browser.straws], []);
 });

@@ -7,6 +7,7 @@
  */
 
 import { ApiError } from "#js/lib/api.js";
+import { LastStraw } from "#js/lib/last-straw.js";
 import { inTurn } from "#js/lib/locks.js";
 import { isRefused, isSound, parcelSender, storedParcels, wishId } from "#js/lib/parcels.js";
 import { browserStorage } from "#js/lib/storage.js";
@@ -37,12 +38,14 @@ export function openOutbox(report) {
   const channel = typeof BroadcastChannel === "undefined" ? null : new BroadcastChannel("irlfr");
   const outbox = new Outbox({
     store: storedParcels(browserStorage),
+    lastStraw: new LastStraw("parcel"),
     inTurn: (work) => inTurn("irlfr:outbox", browserStorage, work),
     report: (news) => {
       report(news);
       channel?.postMessage(news);
     },
   });
+  window.addEventListener("pagehide", () => outbox.rescue());
   channel?.addEventListener("message", ({ data }) => {
     outbox.hear(data);
     report({ ...data, isElsewhere: true });
@@ -52,6 +55,7 @@ export function openOutbox(report) {
 
 export class Outbox {
   #store;
+  #lastStraw;
   #send;
   #report;
   #wait;
@@ -63,7 +67,9 @@ export class Outbox {
   /** @type {Promise<void> | null} */
   #running = null;
   #isStale = false;
-  /** @type {Map<string, Parcel>} what the storage did not take */
+  /** On their way into the storage. @type {Set<Parcel>} */
+  #storing = new Set();
+  /** What the storage did not take. @type {Map<string, Parcel>} */
   #unstored = new Map();
   /** Answered, though the storage may not have heard of it. @type {Set<unknown>} */
   #answered = new Set();
@@ -71,6 +77,7 @@ export class Outbox {
   /**
    * @param {object} parts
    * @param {Store} parts.store
+   * @param {Pick<LastStraw<Parcel>, "keep" | "all" | "drop">} [parts.lastStraw]
    * @param {(parcel: Parcel) => Promise<any>} [parts.send]
    * @param {(news: News) => void} [parts.report]
    * @param {<T>(work: () => Promise<T>) => Promise<T>} [parts.inTurn]  while no other tab sends
@@ -79,6 +86,7 @@ export class Outbox {
    */
   constructor({
     store,
+    lastStraw = { keep: () => {}, all: () => [], drop: () => {} },
     send = parcelSender(),
     report = () => {},
     inTurn: alone = (work) => work(),
@@ -86,6 +94,7 @@ export class Outbox {
     now = () => performance.now(),
   }) {
     this.#store = store;
+    this.#lastStraw = lastStraw;
     this.#send = send;
     this.#report = report;
     this.#inTurn = alone;
@@ -140,7 +149,20 @@ export class Outbox {
     window.addEventListener("online", again, { signal });
     window.addEventListener("pageshow", again, { signal });
     document.addEventListener("visibilitychange", again, { signal });
-    void this.flush();
+    void this.recover().then(() => this.flush());
+  }
+
+  /** The page is being closed: what is not in the storage goes where it can. */
+  rescue() {
+    this.#lastStraw.keep([...this.#storing, ...this.#unstored.values()]);
+  }
+
+  /** Take in what an earlier page could not store in time. */
+  async recover() {
+    for (const parcel of this.#lastStraw.all()) {
+      const isStored = await this.#put(parcel);
+      this.#report({ kind: "kept", parcel, isStored });
+    }
   }
 
   /** What another tab met holds for this one too. @param {News} news */
@@ -158,13 +180,17 @@ export class Outbox {
 
   /** @param {Parcel} parcel @returns {Promise<boolean>} whether it is in the storage */
   async #put(parcel) {
+    this.#storing.add(parcel);
     try {
       await this.#store.add(parcel);
       this.#unstored.delete(parcel.id);
+      this.#lastStraw.drop(parcel.id);
       return true;
     } catch {
       this.#unstored.set(parcel.id, parcel);
       return false;
+    } finally {
+      this.#storing.delete(parcel);
     }
   }
 
@@ -252,6 +278,7 @@ export class Outbox {
   /** @param {Parcel} parcel */
   async #remove(parcel) {
     this.#answered.add(keyOf(parcel));
+    this.#lastStraw.drop(parcel.id);
     if (this.#unstored.get(parcel.id) === parcel) this.#unstored.delete(parcel.id);
     else await this.#store.delete(parcel).catch(() => {});
   }

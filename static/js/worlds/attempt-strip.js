@@ -13,8 +13,8 @@ export class AttemptStrip {
   #world;
   #showTotals;
   #acts;
-  /** @type {Map<string, HTMLElement>} */
-  #cards = new Map();
+  /** What is on show, by id; `face`: all that a card says, so that only those that changed are touched. @type {Map<string, {card: HTMLElement, entry: Entry, n: number, face: string}>} */
+  #shown = new Map();
   /** @type {WeakMap<Element, () => void>} */
   #drawings = new WeakMap();
   /** Boards out of sight cost nothing, however many they are. */
@@ -32,46 +32,46 @@ export class AttemptStrip {
     this.#world = world;
     this.#showTotals = showTotals;
     this.#acts = acts;
+    list.addEventListener("click", (event) => this.#onClick(event));
   }
 
   /** Newest first. @param {Entry[]} entries oldest first */
   show(entries) {
-    const ids = new Set(entries.map((entry) => entry.id));
-    for (const [id, card] of this.#cards) {
-      if (ids.has(id)) continue;
-      card.remove();
-      this.#cards.delete(id);
-    }
     const numbers = new Map(entries.map(({ id }, i) => [id, i + 1]));
+    for (const [id, { card }] of this.#shown) {
+      if (numbers.has(id)) continue;
+      card.remove();
+      this.#shown.delete(id);
+    }
     for (const [i, entry] of entries.entries()) this.#update(entry, i + 1, originWords(entry, numbers));
   }
 
   /** @param {Entry} entry @param {number} n @param {string} origin */
   #update(entry, n, origin) {
-    const card = this.#cards.get(entry.id) ?? this.#make(entry);
-    card.dataset.sync = entry.sync;
-    card.dataset.discarded = String(entry.discarded);
+    const { total, sync, discarded, note } = entry;
+    const face = JSON.stringify([n, total, sync, discarded, note, origin]);
+    const { card, face: before } = this.#shown.get(entry.id) ?? { card: this.#make(entry), face: "" };
+    this.#shown.set(entry.id, { card, entry, n, face });
+    if (face === before) return;
+    card.dataset.sync = sync;
+    card.dataset.discarded = String(discarded);
+    find(card, ".attempt-n").textContent = String(n);
     find(card, ".attempt-figures").textContent = this.#figures(entry);
     find(card, ".attempt-origin").textContent = origin;
-    for (const button of card.querySelectorAll("button")) {
-      const act = /** @type {Act} */ (button.dataset.act);
-      const words = `${ACT_WORDS[act]} attempt ${n}${act === "save" ? " as a file" : ""}`;
-      if (!button.dataset.asked) button.setAttribute("aria-label", words);
-      button.title = words;
-      button.onclick = () => this.#act(button, act, entry, n);
-    }
+    const words = note ?? (discarded ? "Discarded: it does not count." : "");
+    find(card, ".attempt-note").textContent = words;
+    find(card, ".attempt-note").hidden = words === "";
+    this.#nameActs(card, n);
     this.#showActs(card, entry);
-    const note = find(card, ".attempt-note");
-    note.textContent = entry.note ?? (entry.discarded ? "Discarded: it does not count." : "");
-    note.hidden = note.textContent === "";
   }
 
-  /** What cannot be taken back is asked for twice. @param {HTMLButtonElement} button @param {Act} act @param {Entry} entry @param {number} n */
-  #act(button, act, entry, n) {
-    if (act !== "forget" || button.dataset.asked) return this.#acts[act](entry, n);
-    button.dataset.asked = "true";
-    button.textContent = "Forget for good";
-    button.setAttribute("aria-label", `Forget attempt ${n} for good`);
+  /** @param {HTMLElement} card @param {number} n */
+  #nameActs(card, n) {
+    for (const button of card.querySelectorAll("button")) {
+      const act = /** @type {Act} */ (button.dataset.act);
+      button.title = `${ACT_WORDS[act]} attempt ${n}${act === "save" ? " as a file" : ""}`;
+      button.setAttribute("aria-label", button.title);
+    }
   }
 
   /** @param {HTMLElement} card @param {Entry} entry */
@@ -86,6 +86,18 @@ export class AttemptStrip {
     if (focused === restore && restore.hidden) discard.focus();
   }
 
+  /** @param {MouseEvent} event */
+  #onClick(event) {
+    const target = event.target instanceof Element ? event.target : null;
+    const button = /** @type {HTMLButtonElement | null} */ (target?.closest("button[data-act]") ?? null);
+    const id = /** @type {HTMLElement | null} */ (button?.closest(".attempt"))?.dataset.demonstrationId ?? "";
+    const shown = this.#shown.get(id);
+    if (!button || !shown) return;
+    const act = /** @type {Act} */ (button.dataset.act);
+    if (act === "forget" && !button.dataset.asked) askAgain(button, shown.n);
+    else this.#acts[act](shown.entry, shown.n);
+  }
+
   /** @param {Entry} entry */
   #make(entry) {
     const card = /** @type {HTMLElement} */ (document.importNode(this.#template.content, true).firstElementChild);
@@ -98,7 +110,6 @@ export class AttemptStrip {
       board.world = this.#world;
       board.view = { ...board.view, paths: [{ states: [...entry.states], who: "human", width: 0.7 }] };
     });
-    this.#cards.set(entry.id, card);
     this.#list.prepend(card);
     this.#eye.observe(board);
     return card;
@@ -121,6 +132,13 @@ export class AttemptStrip {
 }
 
 const ACT_WORDS = { replay: "Replay", discard: "Discard", restore: "Restore", save: "Save", forget: "Forget" };
+
+/** What cannot be taken back is asked for twice. @param {HTMLButtonElement} button @param {number} n */
+function askAgain(button, n) {
+  button.dataset.asked = "true";
+  button.textContent = "Forget for good";
+  button.setAttribute("aria-label", `Forget attempt ${n} for good`);
+}
 
 /** @param {Entry} entry @param {Map<string, number>} numbers of the attempts, by id */
 function originWords({ parentId, parentStep }, numbers) {

@@ -55,6 +55,7 @@ export class Collection {
   /** Show what the page knows, then what waits in this browser, and send it. @param {AbortSignal} signal */
   async start(signal) {
     this.#show();
+    await this.#outbox.recover();
     for (const parcel of await this.#outbox.all()) if (this.#isOfThisWorld(parcel)) this.#takeIn(parcel);
     this.#show();
     this.#outbox.watch(signal);
@@ -135,10 +136,9 @@ export class Collection {
       entry.discarded = !parcel.discarded;
       entry.note = wishSentence({ message: parcel.refusal ?? "", isDiscarded: parcel.discarded });
     } else {
-      entry.sync = "refused";
-      entry.note = refusalSentence(parcel);
+      Object.assign(entry, { sync: "refused", discarded: false, note: refusalSentence(parcel) });
     }
-    announce(entry.note);
+    announce(entry.note ?? "");
   }
 
   /** @param {Entry} entry @param {boolean} discarded */
@@ -192,7 +192,7 @@ export class Collection {
     byId("attempts-empty").hidden = this.#entries.length > 0;
     this.#showTally("success", counts.nSuccesses);
     this.#showTally("failure", counts.nFailures);
-    this.#badge.show(this.#entries.length > 0);
+    this.#badge.show(this.#entries);
     showCounts({ worldId: this.#world.id, isSaved: this.#isSaved, ...counts });
     this.#showNext(counts);
   }

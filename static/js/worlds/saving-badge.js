@@ -37,17 +37,18 @@ export class SavingBadge {
     }
   }
 
-  /** @param {boolean} isNeeded there is something that could be saved */
-  show(isNeeded) {
+  /** @param {{sync: string}[]} entries all that could be saved */
+  show(entries) {
     const kinds = [...this.#waiting.values()];
     const words = savingWords({
       nAttempts: kinds.filter((kind) => kind === "attempt").length,
       nWishes: kinds.filter((kind) => kind === "wish").length,
       nUnstored: this.#nUnstored(),
+      nRefused: entries.filter(({ sync }) => sync === "refused").length,
       trouble: this.#trouble,
     });
     const badge = byId("sync");
-    badge.hidden = !isNeeded;
+    badge.hidden = entries.length === 0;
     badge.dataset.sync = words.sync;
     badge.dataset.kind = words.sync === "saved" || words.sync === "waiting" ? "" : "attention";
     badge.textContent = words.badge;

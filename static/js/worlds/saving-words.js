@@ -7,14 +7,18 @@ import { plural } from "#js/lib/format.js";
  * @property {number} nAttempts    that the server does not have yet
  * @property {number} nWishes      discards and restores that it does not know of yet
  * @property {number} nUnstored    of both, those that live in this page alone
+ * @property {number} nRefused     attempts that the server did not take and that are kept here
  * @property {{status: number, retryAfterMs: number | null} | null} trouble  what the server answered last (0: nothing), if it could not take them
  */
 
-/** @typedef {{sync: "saved" | "waiting" | "offline" | "busy" | "memory", badge: string, sentence: string}} SavingWords */
+/** @typedef {{sync: "saved" | "waiting" | "offline" | "busy" | "memory" | "refused", badge: string, sentence: string}} SavingWords */
 
 /** @param {Saving} saving @returns {SavingWords} */
-export function savingWords({ nAttempts, nWishes, nUnstored, trouble }) {
-  if (nAttempts + nWishes === 0) return { sync: "saved", badge: "✓ all saved", sentence: "" };
+export function savingWords({ nAttempts, nWishes, nUnstored, nRefused, trouble }) {
+  if (nAttempts + nWishes === 0) {
+    if (nRefused > 0) return { sync: "refused", badge: `${nRefused} not saved`, sentence: "" };
+    return { sync: "saved", badge: "✓ all saved", sentence: "" };
+  }
   const what = nAttempts > 0 ? plural(nAttempts, "attempt") : plural(nWishes, "change");
   if (trouble === null) return { sync: "waiting", badge: `saving ${what} …`, sentence: "" };
   if (nUnstored > 0) return { sync: "memory", badge: "keep this page open", sentence: unstoredSentence(nUnstored) };
@@ -49,7 +53,7 @@ function timeWords(ms) {
 export function savingNews(now, before) {
   if (now.sync === before || now.sync === "waiting") return "";
   if (now.sync !== "saved") return now.sentence;
-  return before === "waiting" ? "" : "Everything is saved again.";
+  return before === "waiting" || before === "refused" ? "" : "Everything is saved again.";
 }
 
 /** Why an attempt is kept here for good. @param {{refusal: string | null, status?: number}} parcel */

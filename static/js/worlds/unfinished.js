@@ -4,6 +4,7 @@
  * cannot be read is set aside, never thrown away.
  */
 
+import { LastStraw } from "#js/lib/last-straw.js";
 import { Belongings } from "#js/lib/locks.js";
 import { ask, browserStorage } from "#js/lib/storage.js";
 
@@ -29,21 +30,25 @@ export class Unfinished {
   #toWrite = new Map();
   /** @type {Promise<void> | null} */
   #writing = null;
+  /** What the storage does not have yet, by id. @type {Map<string, Draft>} */
+  #unwritten = new Map();
   #lasts = true;
   #quiet;
+  #lastStraw;
 
   /**
    * @param {{id: string}} world
    * @param {object} [parts]
    * @param {Drafts} [parts.drafts]
    * @param {Pick<Belongings, "has" | "take" | "giveBack" | "ofOthers">} [parts.belongings]
+   * @param {Pick<LastStraw<Draft>, "keep" | "all" | "drop">} [parts.lastStraw]
    * @param {() => Promise<unknown>} [parts.quiet]  resolves when writing stands in nobody's way
    */
-  constructor(
-    world,
-    { drafts = storedDrafts(browserStorage), belongings = new Belongings(), quiet = afterFrame } = {},
-  ) {
+  constructor(world, parts = {}) {
+    const { drafts = storedDrafts(browserStorage), belongings = new Belongings() } = parts;
+    const { lastStraw = new LastStraw("unfinished"), quiet = afterFrame } = parts;
     this.#worldId = world.id;
+    this.#lastStraw = lastStraw;
     this.#drafts = drafts;
     this.#belongings = belongings;
     this.#quiet = quiet;
@@ -51,7 +56,9 @@ export class Unfinished {
 
   /** Ready at once: the storage opens meanwhile. @param {{id: string}} world */
   static async open(world) {
-    return new Unfinished(world);
+    const unfinished = new Unfinished(world);
+    window.addEventListener("pagehide", () => unfinished.rescue());
+    return unfinished;
   }
 
   /** False when the last step could not be kept: the storage is closed or full. */
@@ -62,11 +69,19 @@ export class Unfinished {
   /** After every step and every step back. Steps that come while one is being written are written together. @param {Draft} draft */
   keep(draft) {
     if (!this.#belongings.has(nameOf(draft.id))) this.#own(draft.id);
+    this.#unwritten.set(draft.id, draft);
     this.#later(draft.id, draft);
+  }
+
+  /** The page is being closed: what is not in the storage goes where it can. */
+  rescue() {
+    this.#lastStraw.keep(this.#unwritten.values());
   }
 
   /** It is finished, or thrown away. @param {string} id */
   drop(id) {
+    this.#unwritten.delete(id);
+    this.#lastStraw.drop(id);
     this.#later(id, null).then(() => this.#belongings.giveBack(nameOf(id)));
   }
 
@@ -135,7 +150,7 @@ export class Unfinished {
       const [[id, draft]] = this.#toWrite;
       this.#toWrite.delete(id);
       try {
-        await (draft === null ? this.#drafts.delete(id) : this.#drafts.put(draft));
+        await (draft === null ? this.#drafts.delete(id) : this.#put(draft));
         this.#lasts = true;
       } catch {
         this.#lasts = false;
@@ -143,8 +158,16 @@ export class Unfinished {
     }
   }
 
-  /** The one attempt a world that version 0.2 kept. */
+  /** @param {Draft} draft */
+  async #put(draft) {
+    await this.#drafts.put(draft);
+    if (this.#unwritten.get(draft.id) === draft) this.#unwritten.delete(draft.id);
+    this.#lastStraw.drop(draft.id);
+  }
+
+  /** What an earlier page could not store in time, and the one attempt a world that version 0.2 kept. */
   async #takeOver() {
+    for (const draft of this.#lastStraw.all()) await this.#put(draft).catch(() => {});
     const key = OLD_KEY + this.#worldId;
     try {
       const text = localStorage.getItem(key);
