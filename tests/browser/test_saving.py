@@ -417,6 +417,7 @@ def test_damaged_storage_is_said_and_stops_nobody(away: BrowserContext, home: Li
         page.evaluate(WRITE, ["unfinished", draft])
         page.reload()
         expect(page.locator('.attempt[data-sync="refused"] .attempt-note')).to_contain_text("damaged")
+        expect(page.get_by_text("An unfinished attempt in this browser's storage is damaged").first).to_be_attached()
         give_up(page, [1, 2])
         expect(page.locator('.attempt[data-sync="saved"]')).to_have_count(1)
         expect_sync(page, "refused")

@@ -26,6 +26,8 @@ export class Collection {
   #entries;
   #strip;
   #outbox = openOutbox((news) => this.#hear(news));
+  /** Before that nobody knows whether all is saved. */
+  #isOutboxRead = false;
   #badge = new SavingBadge(() => this.#outbox.nUnstored);
 
   /**
@@ -57,6 +59,7 @@ export class Collection {
     this.#show();
     await this.#outbox.recover();
     for (const parcel of await this.#outbox.all()) if (this.#isOfThisWorld(parcel)) this.#takeIn(parcel);
+    this.#isOutboxRead = true;
     this.#show();
     this.#outbox.watch(signal);
   }
@@ -192,7 +195,7 @@ export class Collection {
     byId("attempts-empty").hidden = this.#entries.length > 0;
     this.#showTally("success", counts.nSuccesses);
     this.#showTally("failure", counts.nFailures);
-    this.#badge.show(this.#entries);
+    if (this.#isOutboxRead) this.#badge.show(this.#entries);
     showCounts({ worldId: this.#world.id, isSaved: this.#isSaved, ...counts });
     this.#showNext(counts);
   }

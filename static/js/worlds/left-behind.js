@@ -5,6 +5,7 @@
 
 import { byId } from "#js/lib/dom.js";
 import { plural } from "#js/lib/format.js";
+import { damagedSentence } from "#js/worlds/saving-words.js";
 import { Unfinished } from "#js/worlds/unfinished.js";
 
 /** @typedef {import("#js/worlds/session.js").Draft} Draft */
@@ -34,7 +35,7 @@ export class LeftBehind {
     this.#drafts = drafts.filter((draft) => !this.#isKnown(draft.id));
     const welcome = this.#isIdle ? await this.takeUp() : "";
     this.show();
-    return [welcome, damagedSentence(nDamaged)].filter(Boolean).join(" ");
+    return [welcome, nDamaged > 0 && damagedSentence(nDamaged)].filter(Boolean).join(" ");
   }
 
   /** Keep the present state of the attempt being played. @param {number} when */
@@ -93,11 +94,4 @@ export class LeftBehind {
   get #isIdle() {
     return this.#session.isOver || !this.#session.hasOwnSteps;
   }
-}
-
-/** @param {number} nDamaged */
-function damagedSentence(nDamaged) {
-  if (nDamaged === 0) return "";
-  const what = nDamaged === 1 ? "An unfinished attempt" : `${nDamaged} unfinished attempts`;
-  return `${what} in this browser could not be read and ${nDamaged === 1 ? "was" : "were"} set aside.`;
 }

@@ -73,9 +73,5 @@ export function wishSentence({ message, isDiscarded }) {
 /** Attempts that are kept but can no longer be read. @param {number} n */
 export function damagedSentence(n) {
   const [it, is] = n === 1 ? ["An unfinished attempt", "is"] : [`${n} unfinished attempts`, "are"];
-  return `${it} in this browser's storage ${is} damaged and cannot go on. What is left is set aside; your other attempts are as they were.`;
+  return `${it} in this browser's storage ${is} damaged and cannot go on. What is left is set aside.`;
 }
-
-/** No attempt can be kept step by step. */
-export const UNKEPT_SENTENCE =
-  "This browser's storage is full or closed. Finished attempts are still sent to the server; one that is not finished would be lost if you closed the page.";
