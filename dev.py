@@ -4,7 +4,7 @@
 run    set up, then serve on http://127.0.0.1:8000             (IRLFR_PORT and the other settings: README.md)
 test   set up, then run every test, browser tests included     (further arguments go to pytest)
 check  format, lint, types, import contracts, docs
-bench  measure: `bench core`, `bench web`, or all; writes bench.json
+bench  measure: `bench core`, `bench play`, `bench web`, or all; writes bench.json
 """
 
 import sys
@@ -58,10 +58,7 @@ def run(arguments: list[str]) -> int:
 
 def test(arguments: list[str]) -> int:
     set_up(dev=True)
-    environment = dict(os.environ)
-    if chromium := find_chromium():
-        environment["E2E_CHROMIUM"] = str(chromium)
-    return step("pytest", [PYTHON, "-m", "pytest", *arguments], environment)
+    return step("pytest", [PYTHON, "-m", "pytest", *arguments], with_browser())
 
 
 def check(_arguments: list[str]) -> int:
@@ -84,7 +81,13 @@ def check(_arguments: list[str]) -> int:
 
 def bench(arguments: list[str]) -> int:
     set_up(dev=True)
-    return step("bench", [PYTHON, "-m", "bench", *arguments])
+    return step("bench", [PYTHON, "-m", "bench", *arguments], with_browser())
+
+
+def with_browser() -> dict[str, str]:
+    """The environment, saying where the browser is."""
+    chromium = find_chromium()
+    return dict(os.environ) if chromium is None else os.environ | {"E2E_CHROMIUM": str(chromium)}
 
 
 def step(name: str, command: Command, environment: dict[str, str] | None = None) -> int:
