@@ -177,15 +177,18 @@ test("a press before the attempt began, on whatever clock, costs no time", () =>
   assert.deepEqual(session.record(300, CLIENT).rt, [null]);
 });
 
-test("notes that storage has spoilt begin anew rather than fail", () => {
-  const recorder = new Recorder({ at: 0, notes: /** @type {any} */ ({ rt: "x", elapsed_ms: "soon", events: null }) });
-  assert.deepEqual(recorder.record(10, CLIENT), {
-    version: 1,
-    rt: [],
-    device: [],
-    events: [],
-    elapsed_ms: 10,
-    abandoned: [],
-    client: CLIENT,
+test("notes that storage has spoilt lose what is spoilt, lest the attempt be refused for it", () => {
+  const sound = { type: "blur", at_ms: 5, step: 0, value: null };
+  const notes = /** @type {any} */ ({
+    rt: [12, "x", -3, null],
+    device: ["key", "mouth"],
+    events: [sound, { ...sound, type: "sneeze" }, { ...sound, at_ms: Number.NaN }, { ...sound, value: "1" }, null],
+    elapsed_ms: "soon",
+    abandoned: [{ n_steps: 2, elapsed_ms: 9 }, { n_steps: -1, elapsed_ms: 9 }, 7],
   });
+  const { rt, device, events, abandoned, elapsed_ms } = new Recorder({ at: 0, notes }).record(10, CLIENT);
+  assert.deepEqual([rt, device, events, elapsed_ms], [[12, null], ["key"], [sound], 10]);
+  assert.deepEqual(abandoned, [{ n_steps: 2, elapsed_ms: 9 }]);
+  const none = new Recorder({ at: 0, notes: /** @type {any} */ ({ rt: "x", events: null }) }).record(10, CLIENT);
+  assert.deepEqual([none.rt, none.events, none.abandoned], [[], [], []]);
 });

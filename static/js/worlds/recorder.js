@@ -7,8 +7,21 @@
  * computer that slept, a clock that was set.
  */
 
-/** @typedef {"key" | "hold" | "pad" | "swipe" | "tap" | "gamepad" | "copied"} Device */
-/** @typedef {"undo" | "blur" | "focus" | "hidden" | "visible" | "resumed" | "clock" | "numbers" | "look"} EventType */
+const DEVICES = /** @type {const} */ (["key", "hold", "pad", "swipe", "tap", "gamepad", "copied"]);
+const EVENTS = /** @type {const} */ ([
+  "undo",
+  "blur",
+  "focus",
+  "hidden",
+  "visible",
+  "resumed",
+  "clock",
+  "numbers",
+  "look",
+]);
+
+/** @typedef {typeof DEVICES[number]} Device */
+/** @typedef {typeof EVENTS[number]} EventType */
 /** @typedef {{type: EventType, at_ms: number, step: number, value: number | null}} Happening */
 /** @typedef {{n_steps: number, elapsed_ms: number}} Abandoned */
 
@@ -125,16 +138,37 @@ export class Recorder {
   }
 }
 
-/** Notes from storage, whatever became of them there. @param {Partial<Notes>} notes @returns {Notes} */
+/** Notes from storage, whatever became of them there: what is not sound is left out, lest the attempt be refused for it. @param {Partial<Notes>} notes @returns {Notes} */
 function soundNotes({ rt, device, events, elapsed_ms, first_step_ms, abandoned }) {
   return {
-    rt: Array.isArray(rt) ? [...rt] : [],
-    device: Array.isArray(device) ? [...device] : [],
-    events: Array.isArray(events) ? [...events] : [],
-    elapsed_ms: Number.isFinite(elapsed_ms) ? Math.max(0, Number(elapsed_ms)) : 0,
-    first_step_ms: Number.isFinite(first_step_ms) ? Number(first_step_ms) : null,
-    abandoned: Array.isArray(abandoned) ? [...abandoned] : [],
+    rt: soundList(rt, (one) => one === null || isMs(one)),
+    device: soundList(device, (one) => DEVICES.includes(one)),
+    events: soundList(events, isHappening),
+    elapsed_ms: isMs(elapsed_ms) ? elapsed_ms : 0,
+    first_step_ms: isMs(first_step_ms) ? first_step_ms : null,
+    abandoned: soundList(abandoned, (one) => isCount(one?.n_steps) && isMs(one.elapsed_ms)),
   };
+}
+
+/** @template T @param {T[] | undefined} list @param {(one: any) => boolean} isSound @returns {T[]} */
+function soundList(list, isSound) {
+  return Array.isArray(list) ? list.filter(isSound) : [];
+}
+
+/** @param {any} event */
+function isHappening(event) {
+  const isTimed = isMs(event?.at_ms) && isCount(event.step);
+  return isTimed && EVENTS.includes(event.type) && (event.value === null || Number.isFinite(event.value));
+}
+
+/** @param {unknown} ms @returns {ms is number} */
+function isMs(ms) {
+  return typeof ms === "number" && ms >= 0 && ms <= MOST_ELAPSED_MS;
+}
+
+/** @param {unknown} n */
+function isCount(n) {
+  return Number.isInteger(n) && Number(n) >= 0;
 }
 
 /** @param {number} ms */
