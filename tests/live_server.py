@@ -9,6 +9,7 @@ import sqlite3
 import subprocess
 import sys
 import time
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -19,8 +20,9 @@ READY_WITHIN_S = 60.0
 class LiveServer:
     """`irlfr serve` with its worker, on a port chosen beforehand."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, settings: Mapping[str, str] | None = None) -> None:
         self.folder = folder
+        self.settings = settings or {}
         self.port = free_port()
         self.address = f"http://127.0.0.1:{self.port}"
         self.database = folder / "irlfr.sqlite3"
@@ -34,6 +36,7 @@ class LiveServer:
             "IRLFR_HOST": "127.0.0.1",
             "IRLFR_PORT": str(self.port),
             "PYTHONPATH": str(ROOT),
+            **self.settings,
         }
         with self.log.open("ab") as log:
             command = [sys.executable, "-m", "app.cli", "serve"]

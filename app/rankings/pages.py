@@ -27,7 +27,9 @@ class RankPage:
 
     path: PathState = field(metadata={"help": "How far this visitor has come in this world."})
     world: dict[str, Any] = field(metadata={"help": "The world, as the API has it."})
-    data: dict[str, Any] = field(metadata={"help": "The page data: world, demonstrations, rankings, start_order."})
+    data: dict[str, Any] = field(
+        metadata={"help": "The page data: world, demonstrations, rankings, start_order, options."}
+    )
 
 
 @router.get("/worlds/{world_id}/rank", response_model=None)
@@ -45,6 +47,7 @@ def show_rank(request: Request, world: WorldFromPath, database: DatabaseFromApp,
             "success": _shuffled_kept(rows, visitor_id, world.id, "success"),
             "failure": _shuffled_kept(rows, visitor_id, world.id, "failure"),
         },
+        "options": {"show_totals": request.app.state.settings.show_totals},
     }
     return render(request, "rankings/rank.html", RankPage(path=path, world=data["world"], data=data))
 

@@ -157,8 +157,11 @@ function makeCard(template, world, demonstration) {
   const { id, outcome, states, actions, total } = demonstration;
   card.dataset.demonstrationId = id;
   card.dataset.list = outcome;
-  card.dataset.words = `${outcome === "success" ? "Success" : "Failure"} with ${signed(total)} in ${plural(actions.length, "step")}`;
-  find(card, ".card-total").textContent = signed(total);
+  // Where a study hides the totals, the card has no place for one.
+  const place = card.querySelector(".card-total");
+  const earned = place ? ` with ${signed(total)}` : "";
+  card.dataset.words = `${outcome === "success" ? "Success" : "Failure"}${earned} in ${plural(actions.length, "step")}`;
+  if (place) place.textContent = signed(total);
   find(card, ".card-steps").textContent = plural(actions.length, "step");
   const board = /** @type {IrlBoard} */ (find(card, "irl-board"));
   board.world = world;
