@@ -3,12 +3,16 @@
 import io
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any, Final
+from typing import Any, Final, TypeAlias
 
-from PIL import Image
+import matplotlib.image
+import numpy as np
 from playwright.sync_api import Browser, Locator, Page, expect
 
 from tests.browser.conftest import watched
+
+Picture: TypeAlias = np.ndarray[tuple[int, int, int], np.dtype[np.float32]]
+Colour: TypeAlias = np.ndarray[tuple[int], np.dtype[np.float32]]
 
 #: Three rows of four squares in which every figure is known; the goal pays 7. Right, right costs most.
 SMALL: Final = "/?rows=3&cols=4&seed=5&painted=0-1:-0.5,2:-3.2,3-10:-0.5"
@@ -32,7 +36,7 @@ FOCUSED: Final = """() => {
   const box = place.getBoundingClientRect();
   const seen = document.elementFromPoint(box.x + box.width / 2, Math.max(1, box.y + Math.min(box.height, 40) / 2));
   return {
-    name: here.getAttribute("aria-label") ?? here.textContent.trim().replace(/\\s+/g, " "),
+    name: here.getAttribute("aria-label") ?? here.textContent.trim().replace(/\\s+/g, " ").slice(0, 40),
     isBody: here === document.body,
     hasRing: outlineStyle !== "none" && parseFloat(outlineWidth) >= 2,
     isInWindow: box.left >= 0 && box.right <= innerWidth + 1 && box.top < innerHeight && box.bottom > 0,
@@ -56,7 +60,7 @@ def hear(page: Page, act: Callable[[], object]) -> str:
     """What is said aloud after an act. Give the page LISTEN before it goes anywhere."""
     page.evaluate("() => { window.heard = []; }")
     act()
-    page.wait_for_function("window.heard.length > 0")
+    page.wait_for_function("() => window.heard.length > 0")
     said: str = page.evaluate("window.heard.at(-1)")
     return said
 
@@ -92,18 +96,18 @@ def press(page: Page, *keys: str) -> None:
         page.keyboard.press(key)
 
 
-def picture(page: Page) -> Image.Image:
-    """What is on the screen, in CSS pixels."""
-    return Image.open(io.BytesIO(page.screenshot(scale="css"))).convert("RGB")
+def picture(page: Page) -> Picture:
+    """What is on the screen: rows of CSS pixels, each red, green, blue in 0…1."""
+    pixels: Picture = matplotlib.image.imread(io.BytesIO(page.screenshot(scale="css")))[:, :, :3]
+    return pixels
 
 
-def contrast(one: tuple[int, ...], other: tuple[int, ...]) -> float:
+def contrast(one: Colour, other: Colour) -> float:
     """The contrast of two colours (WCAG 2.2)."""
     light, dark = sorted((luminance(one), luminance(other)), reverse=True)
     return (light + 0.05) / (dark + 0.05)
 
 
-def luminance(colour: tuple[int, ...]) -> float:
-    parts = [value / 255 for value in colour]
-    red, green, blue = (part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts)
-    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+def luminance(colour: Colour) -> float:
+    red, green, blue = (part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in colour)
+    return float(0.2126 * red + 0.7152 * green + 0.0722 * blue)

@@ -1,5 +1,6 @@
 /** A replay on the page's board: play and pause, step by step, any step, 0.5× to 8×, and "try again from here". */
 
+import { describePosition } from "#js/board/describe.js";
 import { canBranch } from "#js/board/moves.js";
 import { Replay } from "#js/board/replay.js";
 import { rewardOf } from "#js/board/state.js";
@@ -76,7 +77,8 @@ export class ReplayBar {
   /** One step on or back; the replay then stands still. @param {number} by */
   nudge(by) {
     this.#replay.seek(this.#replay.at + by);
-    announce(this.#words());
+    const state = this.#entry?.states[this.#replay.at] ?? this.#world.start;
+    announce(`${this.#words()}. ${describePosition(this.#world, state)}`);
   }
 
   /** The next faster or slower speed. @param {number} by */
