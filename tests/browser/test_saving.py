@@ -374,6 +374,12 @@ def test_a_full_storage_costs_nothing_while_the_page_is_open(away: BrowserContex
     give_up(page, [1, 2])
     expect_sync(page, "memory")
     expect(page.locator("#saving")).to_contain_text("in this page alone")
+    begin_again(page)
+    for action in (1, 2, 3):
+        walk_along(page, [action])
+        page.wait_for_timeout(100)  # as people press: the storage has said no to the step before
+    expect(page.locator("#hint")).to_contain_text("no room to keep an attempt while you play it")
+    page.keyboard.press("r")
     questions: list[str] = []
 
     def stay(dialog: Dialog) -> None:

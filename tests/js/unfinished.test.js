@@ -29,15 +29,24 @@ function makeBrowser(stored = []) {
     all: () => [...straws.values()],
     drop: (id) => void straws.delete(id),
   };
+  /** As transactions are: done in the order in which they were asked for. */
+  let last = Promise.resolve();
+  const inTurn = (work) => {
+    last = last.then(work, work);
+    return last;
+  };
   const store = {
-    put: async (one) => {
+    put: (one) => {
+      browser.onPut(one);
       const copy = structuredClone(one);
-      await gate.open;
-      if (gate.isFull) throw new DOMException("no room", "QuotaExceededError");
-      writes.push(`${one.id} ${one.actions?.length}`);
-      drafts.set(one.id, copy);
+      return inTurn(async () => {
+        await gate.open;
+        if (gate.isFull) throw new DOMException("no room", "QuotaExceededError");
+        writes.push(`${one.id} ${one.actions?.length}`);
+        drafts.set(one.id, copy);
+      });
     },
-    delete: async (id) => void drafts.delete(id),
+    delete: (id) => inTurn(async () => void drafts.delete(id)),
     all: async () => [...drafts.values()],
   };
   /** @param {string} tab */
@@ -59,7 +68,8 @@ function makeBrowser(stored = []) {
   const close = (tab) => {
     for (const [name, by] of held) if (by === tab) held.delete(name);
   };
-  return { drafts, straws, writes, gate, open, close };
+  const browser = { drafts, straws, writes, gate, open, close, onPut: (_one) => {} };
+  return browser;
 }
 
 const settled = () => new Promise((resolve) => setTimeout(resolve, 5));
@@ -93,19 +103,29 @@ test("two tabs never go on with the same attempt", async () => {
   assert.deepEqual(await Promise.all([one.take("a"), other.take("a")]), [true, false]);
 });
 
-test("steps that come while one is being written are written together, the last of them last", async () => {
+test("each step is on its way to the storage before its key press is over", async () => {
+  const browser = makeBrowser();
+  const tab = browser.open("tab");
+  browser.gate.open = new Promise(() => {});
+  const asked = [];
+  browser.onPut = (one) => asked.push(one.actions.length);
+  for (const n of [1, 2, 3]) tab.keep(draft("a", n));
+  assert.deepEqual(asked, [1, 2, 3]);
+});
+
+test("steps of a long attempt that come while one is being written are written together, the last of them last", async () => {
   const browser = makeBrowser();
   const tab = browser.open("tab");
   let open = () => {};
   browser.gate.open = new Promise((resolve) => {
     open = resolve;
   });
-  tab.keep(draft("a", 1));
+  tab.keep(draft("a", 2001));
   await settled();
-  for (const n of [2, 3, 4]) tab.keep(draft("a", n));
+  for (const n of [2002, 2003, 2004]) tab.keep(draft("a", n));
   open();
   await settled();
-  assert.deepEqual(browser.writes, ["a 1", "a 4"]);
+  assert.deepEqual(browser.writes, ["a 2001", "a 2004"]);
 });
 
 test("a finished attempt is gone, even if a step of it was still to be written", async () => {

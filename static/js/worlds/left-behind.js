@@ -10,9 +10,15 @@ import { Unfinished } from "#js/worlds/unfinished.js";
 
 /** @typedef {import("#js/worlds/session.js").Draft} Draft */
 
+/** Said once, where the browser's storage is full or closed. */
+const NO_ROOM =
+  "This browser has no room to keep an attempt while you play it: finish it before you close or reload this page.";
+
 export class LeftBehind {
   #session;
   #isKnown;
+  #warn;
+  #hasWarned = false;
   #store;
   /** @type {Draft[]} newest first */
   #drafts = [];
@@ -20,11 +26,14 @@ export class LeftBehind {
   /**
    * @param {import("#js/board/state.js").World} world
    * @param {import("#js/worlds/session.js").PlaySession} session
-   * @param {(id: string) => boolean} isKnown   whether this attempt was finished and is kept elsewhere
+   * @param {object} options
+   * @param {(id: string) => boolean} options.isKnown   whether this attempt was finished and is kept elsewhere
+   * @param {(sentence: string) => void} options.warn
    */
-  constructor(world, session, isKnown) {
+  constructor(world, session, { isKnown, warn }) {
     this.#session = session;
     this.#isKnown = isKnown;
+    this.#warn = warn;
     this.#store = Unfinished.open(world);
   }
 
@@ -43,7 +52,10 @@ export class LeftBehind {
     const { id } = this.#session.attempt;
     if (!this.#session.hasOwnSteps) return this.drop(id);
     const draft = this.#session.draft(when);
-    void this.#store.then((store) => store.keep(draft));
+    void this.#store.then((store) => {
+      store.keep(draft);
+      this.#warnOnce(store.lasts);
+    });
     this.show();
   }
 
@@ -82,6 +94,13 @@ export class LeftBehind {
     if (draft === undefined) return;
     const words = `You also left an attempt after ${plural(draft.actions.length, "step")}.`;
     byId("left-words").textContent = words;
+  }
+
+  /** @param {boolean} lasts whether the step before was kept */
+  #warnOnce(lasts) {
+    if (lasts || this.#hasWarned) return;
+    this.#hasWarned = true;
+    this.#warn(NO_ROOM);
   }
 
   /** @param {Draft} draft */

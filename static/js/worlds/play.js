@@ -72,7 +72,10 @@ class PlayPage {
       replay: (entry, n) => this.#startReplay(entry, n),
       showTotals: this.#options.showTotals,
     });
-    this.#leftBehind = new LeftBehind(this.#world, this.#session, (id) => this.#collection.entry(id) !== undefined);
+    this.#leftBehind = new LeftBehind(this.#world, this.#session, {
+      isKnown: (id) => this.#collection.entry(id) !== undefined,
+      warn: (sentence) => this.#hint(sentence),
+    });
   }
 
   start() {

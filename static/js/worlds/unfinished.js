@@ -17,6 +17,8 @@ import { ask, browserStorage } from "#js/lib/storage.js";
  * @property {() => Promise<any[]>} all   whatever is there
  */
 
+/** Up to here writing an attempt takes less than a millisecond; one of 20,000 steps takes 12. */
+const MOST_STEPS_AT_ONCE = 1000;
 /** After a reload the old page may hold its attempt for a moment longer. */
 const RELOAD_MS = 1000;
 const OLD_KEY = "irlfr:attempt:";
@@ -26,7 +28,7 @@ export class Unfinished {
   #worldId;
   #drafts;
   #belongings;
-  /** @type {Map<string, Draft | null>} what is to be written; null: deleted */
+  /** Long ones that wait for a quiet moment, by id. @type {Map<string, Draft>} */
   #toWrite = new Map();
   /** @type {Promise<void> | null} */
   #writing = null;
@@ -66,11 +68,20 @@ export class Unfinished {
     return this.#lasts;
   }
 
-  /** After every step and every step back. Steps that come while one is being written are written together. @param {Draft} draft */
+  /**
+   * After every step and every step back. In the task of the key press, so that a browser killed after it loses nothing;
+   * long attempts wait until the frame is painted, and steps that come meanwhile are written together.
+   * @param {Draft} draft
+   */
   keep(draft) {
-    if (!this.#belongings.has(nameOf(draft.id))) this.#own(draft.id);
-    this.#unwritten.set(draft.id, draft);
-    this.#later(draft.id, draft);
+    const { id, actions } = draft;
+    if (!this.#belongings.has(nameOf(id))) this.#own(id);
+    this.#unwritten.set(id, draft);
+    if (actions.length > MOST_STEPS_AT_ONCE) this.#later(draft);
+    else {
+      this.#toWrite.delete(id);
+      void this.#write(draft);
+    }
   }
 
   /** The page is being closed: what is not in the storage goes where it can. */
@@ -82,7 +93,9 @@ export class Unfinished {
   drop(id) {
     this.#unwritten.delete(id);
     this.#lastStraw.drop(id);
-    this.#later(id, null).then(() => this.#belongings.giveBack(nameOf(id)));
+    this.#toWrite.delete(id);
+    const gone = this.#drafts.delete(id).catch(() => {});
+    void gone.then(() => this.#belongings.giveBack(nameOf(id)));
   }
 
   /**
@@ -135,26 +148,31 @@ export class Unfinished {
     remember(id);
   }
 
-  /** @param {string} id @param {Draft | null} draft */
-  #later(id, draft) {
-    this.#toWrite.set(id, draft);
-    this.#writing ??= this.#write().finally(() => {
+  /** @param {Draft} draft */
+  #later(draft) {
+    this.#toWrite.set(draft.id, draft);
+    this.#writing ??= this.#writeLong().finally(() => {
       this.#writing = null;
     });
-    return this.#writing;
   }
 
-  async #write() {
+  async #writeLong() {
     while (this.#toWrite.size > 0) {
       await this.#quiet();
-      const [[id, draft]] = this.#toWrite;
-      this.#toWrite.delete(id);
-      try {
-        await (draft === null ? this.#drafts.delete(id) : this.#put(draft));
-        this.#lasts = true;
-      } catch {
-        this.#lasts = false;
+      for (const [id, draft] of this.#toWrite) {
+        this.#toWrite.delete(id);
+        await this.#write(draft);
       }
+    }
+  }
+
+  /** @param {Draft} draft */
+  async #write(draft) {
+    try {
+      await this.#put(draft);
+      this.#lasts = true;
+    } catch {
+      this.#lasts = false;
     }
   }
 
@@ -189,7 +207,7 @@ function storedDrafts(storage) {
   };
 }
 
-/** After the next frame, since an attempt of 20,000 steps takes 12 ms to write; at once if the page is being closed. */
+/** After the next frame; at once if the page is being closed. */
 function afterFrame() {
   const waited = new AbortController();
   return new Promise((resolve) => {
