@@ -74,7 +74,7 @@ class PlayPage {
     });
     this.#leftBehind = new LeftBehind(this.#world, this.#session, {
       isKnown: (id) => this.#collection.entry(id) !== undefined,
-      warn: (sentence) => this.#hint(sentence),
+      warn: (sentence) => this.#hint(sentence, { stays: true }),
     });
   }
 
@@ -84,7 +84,7 @@ class PlayPage {
     listenToKeys(this, { signal, holdToMove: this.#options.holdToMove });
     listenToPointer(this.#board, this, signal);
     listenToGamepad(this, signal, { holdToMove: this.#options.holdToMove });
-    noteAttention(this.#session, { signal, onClockJump: (sentence) => this.#hint(sentence) });
+    noteAttention(this.#session, { signal, onClockJump: (sentence) => this.#hint(sentence, { stays: true }) });
     this.#listenToButtons();
     this.#offerHelp();
     if (this.#world.time_limit_s) this.#watchTime();
@@ -322,18 +322,19 @@ class PlayPage {
     return this.#options.showTotals ? ` Total ${number(totalOf(this.#session.attempt))}.` : "";
   }
 
-  /** Say a sentence, below the board and aloud. @param {string} sentence */
-  #hint(sentence) {
+  /** Say a sentence, below the board and aloud; until the next step, or until there is another. @param {string} sentence @param {{stays?: boolean}} [options] */
+  #hint(sentence, { stays = false } = {}) {
     const hint = byId("hint");
     hint.textContent = sentence;
     hint.dataset.isUsual = "false";
+    hint.dataset.stays = String(stays);
     announce(sentence);
   }
 
   /** What was said of a square or a moment is over with the next step. */
   #forgetHint() {
     const hint = byId("hint");
-    if (hint.dataset.isUsual === "true") return;
+    if (hint.dataset.isUsual === "true" || hint.dataset.stays === "true") return;
     hint.replaceChildren(...this.#usualHint);
     hint.dataset.isUsual = "true";
   }
