@@ -9,17 +9,6 @@ from tests.browser.gamepad import Gamepad
 from tests.browser.ways import CHEAP, SMALL
 
 
-def attempts_of(page: Page, address: str) -> list[walk.Json]:
-    """What the server has of the visitor's attempts in the world on the page, oldest first."""
-    world_id = walk.page_data(page)["world"]["id"]
-    found: list[walk.Json] = walk.ContextClient(page, address).get(f"/worlds/{world_id}/demonstrations")
-    return found
-
-
-def expect_saved(page: Page) -> None:
-    expect(page.locator("#sync")).to_have_attribute("data-sync", "saved")
-
-
 def test_tab_leads_through_the_page_in_the_order_it_is_read(page: Page) -> None:
     page.goto(SMALL)
     skip = page.locator(".skip-link")
@@ -88,7 +77,7 @@ def test_an_attempt_is_tried_again_from_the_midst_of_another_by_keyboard_alone(p
     page.goto(SMALL)
     walk.play_by_keys(page, CHEAP)
     ways.press(page, "ArrowRight", "ArrowRight", "g")
-    expect_saved(page)
+    ways.expect_saved(page)
     replay = page.locator('[data-act="replay"]').last
     ways.tab_to(page, replay)
     page.keyboard.press("Enter")
@@ -102,9 +91,9 @@ def test_an_attempt_is_tried_again_from_the_midst_of_another_by_keyboard_alone(p
     ways.expect_state(page, 8)  # what was copied is not taken back
     ways.press(page, "ArrowRight", "ArrowRight", "ArrowRight")
     ways.expect_shows(page, "result")
-    expect_saved(page)
+    ways.expect_saved(page)
     expect(page.locator(".attempt-origin").first).to_have_text("from attempt 1, step 2")
-    first, _, child = attempts_of(page, base_url)
+    first, _, child = ways.attempts_of(page, base_url)
     assert (child["parent_id"], child["parent_step"]) == (first["id"], 2)
     assert child["actions"] == CHEAP
     assert child["step_ms"][:2] == first["step_ms"][:2]
@@ -130,7 +119,7 @@ def steer_the_replay(page: Page) -> None:
 def test_leaving_a_replay_and_discarding_keep_the_focus(page: Page, base_url: str) -> None:
     page.goto(SMALL)
     ways.press(page, "ArrowRight", "g")
-    expect_saved(page)
+    ways.expect_saved(page)
     replay = page.locator('[data-act="replay"]')
     ways.tab_to(page, replay)
     page.keyboard.press("Enter")
@@ -145,8 +134,8 @@ def test_leaving_a_replay_and_discarding_keep_the_focus(page: Page, base_url: st
     page.keyboard.press("Enter")
     expect(page.locator('[data-act="discard"]')).to_be_focused()
     expect(page.locator("#n-failures")).to_have_text("1")
-    expect_saved(page)
-    assert [one["discarded"] for one in attempts_of(page, base_url)] == [False]
+    ways.expect_saved(page)
+    assert [one["discarded"] for one in ways.attempts_of(page, base_url)] == [False]
 
 
 def test_tab_and_enter_lead_on_to_the_order(page: Page) -> None:
@@ -165,8 +154,7 @@ def test_numbers_shown_while_a_key_is_held_are_noted(page: Page, base_url: str) 
     page.keyboard.down("n")
     page.keyboard.up("n")
     ways.press(page, "Shift+ArrowRight", "g")
-    expect_saved(page)
-    (only,) = attempts_of(page, base_url)
+    (only,) = ways.attempts_of(page, base_url)
     events = [(event["type"], event["step"], event["value"]) for event in only["record"]["events"]]
     assert events == [("numbers", 1, 1), ("numbers", 1, 0), ("look", 1, 2)]
 
@@ -179,8 +167,7 @@ def test_a_phone_plays_by_pad_swipe_and_tap(phone: Page, base_url: str) -> None:
         ways.expect_state(phone, state - 1)
         tap_square(phone, state)
     ways.expect_shows(phone, "result")
-    expect_saved(phone)
-    (only,) = attempts_of(phone, base_url)
+    (only,) = ways.attempts_of(phone, base_url)
     assert only["actions"] == CHEAP
     assert only["record"]["device"] == ["pad", "swipe", "tap", "tap", "tap"]
 
@@ -210,8 +197,7 @@ def test_a_phone_replays_and_tries_again_from_there(phone: Page, base_url: str) 
     phone.locator('[data-move="0"]').tap()
     phone.locator('[data-command="giveUp"]').tap()
     expect(phone.locator("#result-text")).to_have_text("You stopped after 3 steps, at −1.5.")
-    expect_saved(phone)
-    first, child = attempts_of(phone, base_url)
+    first, child = ways.attempts_of(phone, base_url)
     assert (child["parent_id"], child["parent_step"], child["actions"]) == (first["id"], 2, [2, 2, 0])
     phone.locator('[data-act="discard"]').first.tap()
     expect(phone.locator("#n-failures")).to_have_text("0")
@@ -266,8 +252,7 @@ def test_a_gamepad_succeeds_takes_back_gives_up_and_plays_again(page: Page, base
     expect(page.locator("#result-title")).to_have_text("✗ A useful failure: 1 of 3")
     gamepad.press("A")
     ways.expect_shows(page, "playing")
-    expect_saved(page)
-    success, failure = attempts_of(page, base_url)
+    success, failure = ways.attempts_of(page, base_url)
     assert [success["outcome"], failure["ending"]] == ["success", "gave_up"]
     assert set(success["record"]["device"]) == {"gamepad"}
     undone = [event["value"] for event in success["record"]["events"] if event["type"] == "undo"]

@@ -42,7 +42,7 @@ def states_of_play(page: Page) -> Iterator[str]:
     ways.press(page, "Shift+ArrowRight", "Shift+ArrowRight")
     yield "cursor"
     ways.press(page, "r")
-    walk_along(page, CHEAP)
+    ways.walk_along(page, CHEAP)
     ways.expect_shows(page, "result")
     yield "success"
     ways.press(page, "Enter", "ArrowRight", "g")
@@ -64,19 +64,15 @@ def states_of_play(page: Page) -> Iterator[str]:
     yield "options"
     page.keyboard.press("Escape")
     page.goto("/?seed=5&slip=0.3&time_limit_s=5")
-    walk_along(page, [1, 2])
+    ways.walk_along(page, [1, 2])
     yield "slippery, with a time limit"
     page.goto("/?seed=5&goals=48,6&walls=9,10")
-    walk_along(page, [2, 2])
+    ways.walk_along(page, [2, 2])
     yield "two goals and walls"
     page.goto("/?seed=5&rows=100&cols=100")
-    walk_along(page, [1, 2])
+    ways.walk_along(page, [1, 2])
     expect(page.locator("#close-up")).to_be_visible()
     yield "close-up"
-
-
-def walk_along(page: Page, actions: list[int]) -> None:
-    ways.press(page, *(walk.KEYS[action] for action in actions))
 
 
 @pytest.mark.parametrize("zoom", ZOOMS)
@@ -95,13 +91,13 @@ def test_enlarged_a_key_brings_the_board_into_sight_and_the_end_its_result(
         page.goto(SMALL)
         for actions in (CHEAP, [1, 1, 1, 2, 2]):
             page.evaluate(SCROLL_DOWN)
-            walk_along(page, actions[:2])
+            ways.walk_along(page, actions[:2])
             expect(page.locator("#board")).to_be_in_viewport(ratio=0.98)
-            walk_along(page, actions[2:])
+            ways.walk_along(page, actions[2:])
             expect(page.locator("#result-text")).to_be_in_viewport(ratio=0.98)
             page.keyboard.press("Enter")
         page.goto("/?seed=5&rows=100&cols=100")
-        walk_along(page, [1])
+        ways.walk_along(page, [1])
         expect(page.locator("#close-up")).to_be_in_viewport(ratio=0.98)
 
 
@@ -194,13 +190,15 @@ def test_with_reduced_motion_a_step_is_there_in_the_next_frame_and_nothing_moves
     with ways.visit(browser, base_url, reduced_motion="reduce") as page:
         page.goto(SMALL)
         page.evaluate(WATCH_FRAMES)
-        walk_along(page, [0, *CHEAP])
+        for action in (0, *CHEAP):
+            ways.walk_along(page, [action])
+            page.evaluate("() => new Promise(requestAnimationFrame)")
         assert page.evaluate("window.frames") == [
             [row, col, 0] for row, col in ((0, 0), (1, 0), (2, 0), (2, 1), (2, 2), (2, 3))
         ]
         expect(page.locator("#board .board-joy")).to_have_count(1)
         expect(page.locator("#result-title")).to_have_text("✓ A success: 1 of 3")
-        page.wait_for_function("() => window.heard.at(-1)?.startsWith('A success: 1 of 3.')")
+        ways.expect_said(page, "A success: 1 of 3. You reached the goal with +4.5 in 6 steps. Enter plays again.")
         ways.press(page, "Enter", "ArrowDown", "g")
         page.locator('[data-act="replay"]').last.press("Enter")
         ways.press(page, "ArrowRight", "ArrowRight")
@@ -213,7 +211,7 @@ def test_axe_finds_nothing_in_any_state(browser: Browser, base_url: str, scheme:
         for state in states_of_play(page):
             check_axe(page, state)
         page.goto("/?seed=5&time_limit_s=5")
-        walk_along(page, [1])
+        ways.walk_along(page, [1])
         expect(page.locator("#time-left")).to_have_attribute("data-low", "true")
         check_axe(page, "time nearly up")
 

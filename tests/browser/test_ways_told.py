@@ -10,6 +10,11 @@ from tests.browser import walk, ways
 from tests.browser.ways import CHEAP, SMALL
 from tests.live_server import LiveServer
 
+#: What is said on squares 0, 1 and 4 of the small world.
+FIRST = "Row 1, column 1. Up: the edge; right: blue −0.5; down: blue −0.5; left: the edge."
+SECOND = "Row 1, column 2. Up: the edge; right: red −3.2; down: blue −0.5; left: blue −0.5."
+BELOW = "Row 2, column 1. Up: blue −0.5; right: blue −0.5; down: blue −0.5; left: the edge."
+COSTLY = "You reached the goal, but the way cost more than the goal gave"
 MOVES = ("up", "right", "down", "left")
 #: All that is on the page to be read or heard, besides what a step or a square costs.
 TOLD = """() => {
@@ -21,75 +26,58 @@ TOLD = """() => {
 }"""
 
 
-@pytest.fixture
-def page(browser: Browser, base_url: str) -> Iterator[Page]:
-    with ways.visit(browser, base_url) as page:
-        yield page
-
-
-def walk_along(page: Page, actions: list[int]) -> None:
-    ways.press(page, *(walk.KEYS[action] for action in actions))
-
-
 def test_a_step_a_bump_and_a_step_back_are_said(page: Page) -> None:
     page.goto(SMALL)
-    assert ways.hear(page, lambda: page.keyboard.press("ArrowRight")) == (
-        "−0.5. Row 1, column 2. Up: the edge; right: red −3.2; down: blue −0.5; left: blue −0.5. Total −0.5."
-    )
-    assert ways.hear(page, lambda: page.keyboard.press("ArrowUp")) == (
-        "Bumped. −0.5. Row 1, column 2. Up: the edge; right: red −3.2; down: blue −0.5; left: blue −0.5. Total −1.0."
-    )
-    assert ways.hear(page, lambda: page.keyboard.press("z")) == (
-        "One step back. Row 1, column 2. Up: the edge; right: red −3.2; down: blue −0.5; left: blue −0.5. Total −0.5."
-    )
-    assert ways.hear(page, lambda: page.keyboard.press("r")) == (
-        "A new attempt. Row 1, column 1. Up: the edge; right: blue −0.5; down: blue −0.5; left: the edge."
-    )
+    page.keyboard.press("ArrowRight")
+    ways.expect_said(page, f"−0.5. {SECOND} Total −0.5.")
+    page.keyboard.press("ArrowUp")
+    ways.expect_said(page, f"Bumped. −0.5. {SECOND} Total −1.0.")
+    page.keyboard.press("z")
+    ways.expect_said(page, f"One step back. {SECOND} Total −0.5.")
+    page.keyboard.press("r")
+    ways.expect_said(page, f"A new attempt. {FIRST}")
 
 
 def test_looking_around_and_asking_where_one_is_are_answered(page: Page) -> None:
     page.goto("/?rows=3&cols=4&seed=5&painted=0-4:-0.5&walls=5")
-    assert ways.hear(page, lambda: page.keyboard.press("Shift+ArrowUp")) == "The edge."
-    assert ways.hear(page, lambda: page.keyboard.press("Shift+ArrowRight")) == "Row 1, column 2: blue, −0.5."
-    assert ways.hear(page, lambda: page.keyboard.press("Shift+ArrowDown")) == "Row 2, column 2: a wall."
-    assert ways.hear(page, lambda: page.keyboard.press("i")) == (
-        "Row 1, column 1. Up: the edge; right: blue −0.5; down: blue −0.5; left: the edge. "
-        "The goal is 2 down and 3 right. Total 0.0."
-    )
+    page.keyboard.press("Shift+ArrowUp")
+    ways.expect_said(page, "The edge.")
+    page.keyboard.press("Shift+ArrowRight")
+    ways.expect_said(page, "Row 1, column 2: blue, −0.5.")
+    page.keyboard.press("Shift+ArrowDown")
+    ways.expect_said(page, "Row 2, column 2: a wall.")
+    page.keyboard.press("i")
+    ways.expect_said(page, f"{FIRST} The goal is 2 down and 3 right. Total 0.0.")
 
 
 def test_a_slip_is_said_with_the_way_it_went(page: Page) -> None:
     page.goto("/?rows=3&cols=3&seed=5&slip=0.9&painted=0-7:-0.5")
-    was, said = 0, ""
-    while not said.startswith("Slipped"):
-        was, said = step_aside(page)
-    found = re.match(r"Slipped (\w+)\. (Bumped\. )?−0\.5\. Row (\d), column (\d)\. Up: .*\. Total −\d+\.\d\.$", said)
-    assert found, said
+    was, told = 0, ""
+    while not told.startswith("Slipped"):
+        was = int(page.locator("#board .agent").get_attribute("data-state") or 0)
+        page.keyboard.press("ArrowUp")
+        expect(page.locator("#announcer")).not_to_have_text(told)
+        told = page.locator("#announcer").text_content() or ""
+    found = re.match(r"Slipped (\w+)\. (Bumped\. )?−0\.5\. Row (\d), column (\d)\. Up: .*\. Total −\d+\.\d\.$", told)
+    assert found, told
     way, bumped, row, col = found.groups()
     now = 3 * (int(row) - 1) + int(col) - 1
     assert now == was if bumped else now - was == (-3, 1, 3, -1)[MOVES.index(way)]
     ways.expect_state(page, now)
 
 
-def step_aside(page: Page) -> tuple[int, str]:
-    """Press a key that leads no closer to the goal; where the agent stood before, and what is said."""
-    was = int(page.locator("#board .agent").get_attribute("data-state") or 0)
-    return was, ways.hear(page, lambda: page.keyboard.press("ArrowUp"))
-
-
 def test_a_success_and_failures_of_each_kind_are_said(page: Page) -> None:
     page.goto(SMALL)
-    assert ways.hear(page, lambda: walk_along(page, CHEAP)) == (
-        "A success: 1 of 3. You reached the goal with +5.0 in 5 steps. Enter plays again."
-    )
+    ways.walk_along(page, CHEAP)
+    ways.expect_said(page, "A success: 1 of 3. You reached the goal with +5.0 in 5 steps. Enter plays again.")
     ways.press(page, "Enter", "ArrowRight")
-    assert ways.hear(page, lambda: page.keyboard.press("g")) == (
-        "A useful failure: 1 of 3. You stopped after 1 step, at −0.5. Enter plays again."
-    )
+    page.keyboard.press("g")
+    ways.expect_said(page, "A useful failure: 1 of 3. You stopped after 1 step, at −0.5. Enter plays again.")
     page.keyboard.press("Enter")
-    assert ways.hear(page, lambda: walk_along(page, [1, 1, 3, 1, 3, 1, 1, 2, 2])) == (
-        "A useful failure: 2 of 3. "
-        "You reached the goal, but the way cost more than the goal gave: −5.1. Enter plays again."
+    ways.walk_along(page, [1, 1, 3, 1, 3, 1, 1, 2, 2])
+    ways.expect_said(
+        page,
+        f"A useful failure: 2 of 3. {COSTLY}: −5.1. Enter plays again.",
     )
 
 
@@ -97,22 +85,17 @@ def test_a_replay_is_said_step_by_step(page: Page) -> None:
     page.goto(SMALL)
     walk.play_by_keys(page, CHEAP)
     replay = page.locator('[data-act="replay"]')
-    assert ways.hear(page, lambda: replay.press("Enter")) == (
-        "Replay of attempt 1: success, +5.0 in 5 steps. Escape goes back to play."
-    )
+    replay.press("Enter")
+    ways.expect_said(page, "Replay of attempt 1: success, +5.0 in 5 steps. Escape goes back to play.")
     ways.press(page, "Space", *["ArrowLeft"] * 5)
-    assert ways.hear(page, lambda: page.keyboard.press("ArrowRight")) == (
-        "Step 1 of 5, total −0.5. Row 2, column 1. Up: blue −0.5; right: blue −0.5; down: blue −0.5; left: the edge."
-    )
-    assert ways.hear(page, lambda: page.keyboard.press("i")) == (
-        "Row 2, column 1. Up: blue −0.5; right: blue −0.5; down: blue −0.5; left: the edge. "
-        "The goal is 1 down and 3 right."
-    )
-    assert ways.hear(page, lambda: page.keyboard.press("ArrowUp")) == "2 times."
-    assert ways.hear(page, lambda: page.keyboard.press("t")) == (
-        "A new attempt, from step 1 on. "
-        "Row 2, column 1. Up: blue −0.5; right: blue −0.5; down: blue −0.5; left: the edge."
-    )
+    page.keyboard.press("ArrowRight")
+    ways.expect_said(page, f"Step 1 of 5, total −0.5. {BELOW}")
+    page.keyboard.press("i")
+    ways.expect_said(page, f"{BELOW} The goal is 1 down and 3 right.")
+    page.keyboard.press("ArrowUp")
+    ways.expect_said(page, "2 times.")
+    page.keyboard.press("t")
+    ways.expect_said(page, f"A new attempt, from step 1 on. {BELOW}")
 
 
 def test_the_time_runs_out_by_itself(page: Page, base_url: str) -> None:
@@ -121,31 +104,21 @@ def test_the_time_runs_out_by_itself(page: Page, base_url: str) -> None:
     expect(page.locator("#time-left")).to_have_text("0:05")
     page.keyboard.press("ArrowRight")
     expect(page.locator("#announcer")).to_have_text("2 seconds left.")
-    assert ways.hear(page, lambda: ways.expect_shows(page, "result")) == (
-        "A useful failure: 1 of 3. The time is up after 1 step, at −0.5. Enter plays again."
-    )
+    ways.expect_shows(page, "result")
+    ways.expect_said(page, "A useful failure: 1 of 3. The time is up after 1 step, at −0.5. Enter plays again.")
     page.keyboard.press("Enter")
     expect(page.locator("#time-left")).to_have_text("0:05")
-    (only,) = attempts_of(page, base_url)
+    (only,) = ways.attempts_of(page, base_url)
     assert (only["ending"], only["actions"]) == ("out_of_time", [1])
     assert 5000 <= only["record"]["elapsed_ms"] < 60_000
 
 
 def test_the_steps_run_out(page: Page, base_url: str) -> None:
     page.goto(SMALL + "&step_limit=6")
-    assert ways.hear(page, lambda: walk_along(page, [1, 3, 1, 3, 1, 3])) == (
-        "A useful failure: 1 of 3. All 6 steps are used up, at −3.0. Enter plays again."
-    )
-    (only,) = attempts_of(page, base_url)
+    ways.walk_along(page, [1, 3, 1, 3, 1, 3])
+    ways.expect_said(page, "A useful failure: 1 of 3. All 6 steps are used up, at −3.0. Enter plays again.")
+    (only,) = ways.attempts_of(page, base_url)
     assert (only["ending"], len(only["actions"])) == ("out_of_steps", 6)
-
-
-def attempts_of(page: Page, address: str) -> list[walk.Json]:
-    """What the server has of the visitor's attempts, oldest first."""
-    expect(page.locator("#sync")).to_have_attribute("data-sync", "saved")
-    world_id = walk.page_data(page)["world"]["id"]
-    found: list[walk.Json] = walk.ContextClient(page, address).get(f"/worlds/{world_id}/demonstrations")
-    return found
 
 
 @pytest.fixture(scope="module")
@@ -161,25 +134,25 @@ def study(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveServer]:
 def test_a_study_may_hide_every_total(browser: Browser, study: LiveServer) -> None:
     with ways.visit(browser, study.address) as page:
         page.goto(SMALL)
-        assert ways.hear(page, lambda: page.keyboard.press("ArrowDown")) == (
-            "−0.5. Row 2, column 1. Up: blue −0.5; right: blue −0.5; down: blue −0.5; left: the edge."
-        )
+        page.keyboard.press("ArrowDown")
+        ways.expect_said(page, f"−0.5. {BELOW}")
         page.keyboard.press("z")
-        assert "otal" not in ways.hear(page, lambda: page.keyboard.press("i"))
-        assert ways.hear(page, lambda: walk_along(page, CHEAP)) == (
-            "A success: 1 of 3. You reached the goal in 5 steps. Enter plays again."
-        )
+        page.keyboard.press("i")
+        ways.expect_said(page, f"{FIRST} The goal is 2 down and 3 right.")
+        ways.walk_along(page, CHEAP)
+        ways.expect_said(page, "A success: 1 of 3. You reached the goal in 5 steps. Enter plays again.")
         page.keyboard.press("Enter")
-        assert ways.hear(page, lambda: walk_along(page, [1, 1, 3, 1, 3, 1, 1, 2, 2])) == (
-            "A useful failure: 1 of 3. "
-            "You reached the goal, but the way cost more than the goal gave. Enter plays again."
+        ways.walk_along(page, [1, 1, 3, 1, 3, 1, 1, 2, 2])
+        ways.expect_said(
+            page,
+            f"A useful failure: 1 of 3. {COSTLY}. Enter plays again.",
         )
         walk.finish_attempt(page, lambda: ways.press(page, "Enter", "ArrowRight", "ArrowRight", "g", "Enter"))
         expect_no_total(page, {"+5.0", "−5.1", "−3.7"})
         page.locator('[data-act="replay"]').last.press("Enter")
         ways.press(page, "Space", "ArrowRight", "ArrowRight")
         expect_no_total(page, {"+5.0", "−5.1", "−3.7", "−1.0"})
-        attempts_of(page, study.address)
+        ways.attempts_of(page, study.address)
         page.goto(f"/worlds/{walk.page_data(page)['world']['id']}/rank")
         expect(page.locator(".card")).to_have_count(3)
         expect_no_total(page, {"+5.0", "−5.1", "−3.7"})
@@ -199,7 +172,7 @@ def test_a_study_may_let_a_held_key_go_on(browser: Browser, study: LiveServer) -
         ways.expect_state(page, 8)
         page.keyboard.up("ArrowRight")
         page.keyboard.press("g")
-        (only,) = attempts_of(page, study.address)
+        (only,) = ways.attempts_of(page, study.address)
         device = only["record"]["device"]
         assert (device[0], set(device[1:])) == ("key", {"hold"})
         assert only["record"]["client"]["hold_to_move"] is True
@@ -280,7 +253,7 @@ def test_the_page_reads_sensibly_with_a_result_and_two_attempts(page: Page) -> N
     page.goto(SMALL)
     walk.play_by_keys(page, CHEAP)
     ways.press(page, "ArrowRight", "g")
-    expect(page.locator("#sync")).to_have_attribute("data-sync", "saved")
+    ways.expect_saved(page)
     expect(page.locator("aside")).to_match_aria_snapshot("""
       - complementary "Your play":
         - region "This attempt":

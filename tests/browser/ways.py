@@ -1,7 +1,7 @@
 """Other ways to a page than a mouse and sharp eyes: who comes, what is heard, what is seen."""
 
 import io
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, Final, TypeAlias
 
@@ -9,6 +9,7 @@ import matplotlib.image
 import numpy as np
 from playwright.sync_api import Browser, Locator, Page, expect
 
+from tests.browser import walk
 from tests.browser.conftest import watched
 
 Picture: TypeAlias = np.ndarray[tuple[int, int, int], np.dtype[np.float32]]
@@ -20,14 +21,6 @@ SMALL: Final = "/?rows=3&cols=4&seed=5&painted=0-1:-0.5,2:-3.2,3-10:-0.5"
 DEAR, CHEAP = [1, 1, 1, 2, 2], [2, 2, 1, 1, 1]
 
 WIDTH: Final = "document.documentElement.scrollWidth"
-LISTEN: Final = """
-  window.heard = [];
-  document.addEventListener("DOMContentLoaded", () => {
-    const region = document.getElementById("announcer");
-    const hear = () => window.heard.push(region.textContent.replace(/\\u00a0$/, ""));
-    new MutationObserver(hear).observe(region, { childList: true, characterData: true, subtree: true });
-  });
-"""
 #: What has the focus: its name for assistive technology, whether its ring shows, whether it can be seen at all.
 FOCUSED: Final = """() => {
   const here = document.activeElement;
@@ -50,19 +43,14 @@ def visit(browser: Browser, address: str, **options: Any) -> Iterator[Page]:
     """A page of a visitor who comes with a certain screen, finger or wish; it fails on anything amiss."""
     context = browser.new_context(base_url=address, **options)
     page = context.new_page()
-    page.add_init_script(LISTEN)
     with watched(page, address):
         yield page
     context.close()
 
 
-def hear(page: Page, act: Callable[[], object]) -> str:
-    """What is said aloud after an act. Give the page LISTEN before it goes anywhere."""
-    page.evaluate("() => { window.heard = []; }")
-    act()
-    page.wait_for_function("() => window.heard.length > 0")
-    said: str = page.evaluate("window.heard.at(-1)")
-    return said
+def expect_said(page: Page, sentence: str) -> None:
+    """What is said aloud last, word by word."""
+    expect(page.locator("#announcer")).to_have_text(sentence)
 
 
 def expect_shows(page: Page, what: str) -> None:
@@ -73,6 +61,22 @@ def expect_shows(page: Page, what: str) -> None:
 def expect_state(page: Page, state: int) -> None:
     """Where the agent is drawn."""
     expect(page.locator("#board .agent")).to_have_attribute("data-state", str(state))
+
+
+def expect_saved(page: Page) -> None:
+    expect(page.locator("#sync")).to_have_attribute("data-sync", "saved")
+
+
+def attempts_of(page: Page, address: str) -> list[walk.Json]:
+    """What the server has of the visitor's attempts in the world on the page, oldest first, once all are saved."""
+    expect_saved(page)
+    world_id = walk.page_data(page)["world"]["id"]
+    found: list[walk.Json] = walk.ContextClient(page, address).get(f"/worlds/{world_id}/demonstrations")
+    return found
+
+
+def walk_along(page: Page, actions: list[int]) -> None:
+    press(page, *(walk.KEYS[action] for action in actions))
 
 
 def tab_to(page: Page, goal: Locator, key: str = "Tab") -> list[str]:
