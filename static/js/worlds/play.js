@@ -16,12 +16,13 @@ import { Client } from "#js/worlds/client.js";
 import { Collection } from "#js/worlds/collection.js";
 import { Feedback } from "#js/worlds/feedback.js";
 import { listenToGamepad } from "#js/worlds/gamepad.js";
+import { Hint } from "#js/worlds/hint.js";
 import { keepInSight } from "#js/worlds/in-sight.js";
 import { LeftBehind } from "#js/worlds/left-behind.js";
 import { startOptions } from "#js/worlds/options.js";
 import { offerPractice, startPractice } from "#js/worlds/practice.js";
 import { toQuery } from "#js/worlds/query.js";
-import { ReplayBar } from "#js/worlds/replay-bar.js";
+import { Replaying } from "#js/worlds/replaying.js";
 import { Scoreboard } from "#js/worlds/scoreboard.js";
 import { finishSentence } from "#js/worlds/sentences.js";
 import { PlaySession } from "#js/worlds/session.js";
@@ -48,33 +49,32 @@ class PlayPage {
   #feedback = new Feedback();
   #surroundings = new Surroundings(this.#board, this.#world);
   #numbers = false;
-  #usualHint = [...byId("hint").childNodes];
-  /** Where the keyboard was when a replay began. @type {HTMLElement | null} */
-  #cameFrom = null;
+  #hint = new Hint();
   #withdrawPractice = () => {};
   #bringIntoSight = keepInSight(byId("boards"), this.#life.signal);
-  /** @type {ReplayBar} */
   #replay;
   #collection;
   #leftBehind;
 
   constructor() {
     this.#board.world = this.#world;
-    this.#replay = new ReplayBar(this.#board, {
+    this.#replay = new Replaying(this.#board, this.#slot, {
       showTotals: this.#options.showTotals,
       onShow: (entry, at) => {
         this.#scoreboard.show(rewardsOf(this.#world, entry.states.slice(0, at + 1)));
         this.#surroundings.show(entry.states[at] ?? this.#world.start);
       },
+      onEnd: () => this.#show(),
+      onBranch: (entry, at) => this.#beginFrom(entry, at),
       signal: this.#life.signal,
     });
     this.#collection = new Collection(this.#data, this.#nWanted, {
-      replay: (entry, n) => this.#startReplay(entry, n),
+      replay: (entry, n) => this.#replay.begin(entry, n),
       showTotals: this.#options.showTotals,
     });
     this.#leftBehind = new LeftBehind(this.#world, this.#session, {
       isKnown: (id) => this.#collection.entry(id) !== undefined,
-      warn: (sentence) => this.#hint(sentence, { stays: true }),
+      warn: (sentence) => this.#hint.say(sentence, { stays: true }),
     });
   }
 
@@ -84,7 +84,7 @@ class PlayPage {
     listenToKeys(this, { signal, holdToMove: this.#options.holdToMove });
     listenToPointer(this.#board, this, signal);
     listenToGamepad(this, signal, { holdToMove: this.#options.holdToMove });
-    noteAttention(this.#session, { signal, onClockJump: (sentence) => this.#hint(sentence, { stays: true }) });
+    noteAttention(this.#session, { signal, onClockJump: (sentence) => this.#hint.say(sentence, { stays: true }) });
     this.#listenToButtons();
     this.#offerHelp();
     if (this.#world.time_limit_s) this.#watchTime();
@@ -94,11 +94,14 @@ class PlayPage {
 
   /** @param {number} action @param {Press} press @returns {boolean} whether a held key may go on */
   move(action, { when, device }) {
-    if (this.#shows === "replay") return this.#steerReplay(action);
+    if (this.#replay.isOn) {
+      this.#replay.steer(action);
+      return true;
+    }
     if (this.#session.isOver) return false;
     if (!this.#session.hasOwnSteps) this.#collection.shareQuery();
     if (device === "key" || device === "gamepad") this.#bringIntoSight();
-    this.#forgetHint();
+    this.#hint.forget();
     const done = this.#session.move(action, { when, device, paintedAt: this.#board.paintedAt });
     this.#show();
     if (done) this.#tellStep(done);
@@ -108,7 +111,7 @@ class PlayPage {
 
   /** A tap on a square beside the agent is a step to it; on a replay it pauses. @param {number} state @param {Press} press */
   tap(state, press) {
-    if (this.#shows === "replay") return this.#replay.toggle();
+    if (this.#replay.isOn) return this.#replay.toggle();
     const here = this.#session.state;
     const action = [0, 1, 2, 3].find((way) => state !== here && nextState(this.#world, here, way) === state);
     if (action !== undefined) this.move(action, press);
@@ -116,7 +119,7 @@ class PlayPage {
 
   /** The cursor looks at the next square, without anybody moving. @param {number} direction */
   look(direction) {
-    if (this.#shows === "replay") return;
+    if (this.#replay.isOn) return;
     const [row, col] = placeOf(this.#world, this.#board.cursor ?? this.#session.state);
     const [down, right] = DELTAS[direction] ?? [0, 0];
     const isInside = row + down in this.#world.rewards && col + right >= 0 && col + right < this.#world.cols;
@@ -124,14 +127,14 @@ class PlayPage {
     const square = (row + down) * this.#world.cols + col + right;
     this.#board.cursor = square;
     this.#session.note("look", performance.now(), square);
-    this.#hint(describeSquare(this.#world, square));
+    this.#hint.say(describeSquare(this.#world, square));
   }
 
   /** @param {Command} command */
   command(command) {
     if (command === "where") return this.#tellWhere();
     if (command === "sound") return this.#feedback.toggleSound();
-    if (this.#shows === "replay") return this.#commandReplay(command);
+    if (this.#replay.isOn) return this.#replay.command(command);
     if (command === "endReplay") this.#board.cursor = null;
     else if (command === "undo") this.#undo();
     else if (command === "giveUp") this.#giveUp();
@@ -139,7 +142,7 @@ class PlayPage {
     else if (command === "restart" && (this.#session.hasOwnSteps || this.#session.isOver)) this.#begin();
   }
 
-  /** What the slot beside the board shows: "playing", "result" or "replay". */
+  /** What the slot beside the board shows: "playing", "result", or "replay" (replaying.js). */
   get #shows() {
     return this.#slot.dataset.shows;
   }
@@ -150,7 +153,7 @@ class PlayPage {
     const words = await this.#leftBehind.recall();
     if (!words) return;
     this.#show();
-    this.#hint(words);
+    this.#hint.say(words);
   }
 
   #begin() {
@@ -159,13 +162,11 @@ class PlayPage {
     this.#showBeginning("A new attempt.");
   }
 
-  #branch() {
-    const shown = this.#replay.shown;
-    if (!shown || !this.#replay.canBranch) return;
+  /** Try again from where another attempt stood. @param {Entry} entry @param {number} at */
+  #beginFrom(entry, at) {
     this.#leaveAttempt();
-    this.#endReplay();
-    this.#session.beginFrom(shown.entry, shown.at, performance.now());
-    this.#showBeginning(`A new attempt, from step ${shown.at} on.`);
+    this.#session.beginFrom(entry, at, performance.now());
+    this.#showBeginning(`A new attempt, from step ${at} on.`);
   }
 
   /** The attempt on the board makes room for another: what is unfinished of it is thrown away. */
@@ -176,7 +177,7 @@ class PlayPage {
   /** @param {string} words */
   #showBeginning(words) {
     this.#slot.dataset.shows = "playing";
-    this.#forgetHint();
+    this.#hint.forget();
     this.#show();
     this.#leftBehind.show();
     this.#board.focus({ preventScroll: true });
@@ -230,49 +231,6 @@ class PlayPage {
     announce(`${title}. ${text} Enter plays again.`);
   }
 
-  /** @param {Entry} entry @param {number} n */
-  #startReplay(entry, n) {
-    if (this.#shows !== "replay") this.#slot.dataset.before = this.#shows;
-    this.#slot.dataset.shows = "replay";
-    this.#board.dataset.mode = "replay";
-    this.#board.cursor = null;
-    // On a phone the list lies below the board.
-    this.#board.scrollIntoView({ block: "nearest" });
-    this.#comeFrom(document.activeElement);
-    this.#replay.open(entry, n);
-  }
-
-  /** The replay's keys need the board: on the button that began it, Space would begin it anew. @param {Element | null} place */
-  #comeFrom(place) {
-    const isByKeyboard = place instanceof HTMLElement && place !== this.#board && place.matches(":focus-visible");
-    this.#cameFrom = isByKeyboard ? place : null;
-    this.#board.focus({ preventScroll: true });
-  }
-
-  #endReplay() {
-    this.#replay.close();
-    delete this.#board.dataset.mode;
-    this.#slot.dataset.shows = this.#slot.dataset.before ?? "playing";
-    this.#show();
-  }
-
-  /** Left and right go through the steps, up and down change the speed. @param {number} action */
-  #steerReplay(action) {
-    if (action === 1 || action === 3) this.#replay.nudge(action === 1 ? 1 : -1);
-    else this.#replay.changeSpeed(action === 0 ? 1 : -1);
-    return true;
-  }
-
-  /** @param {Command} command */
-  #commandReplay(command) {
-    if (command === "again") this.#replay.toggle();
-    else if (command === "branch") this.#branch();
-    else if (command === "endReplay") {
-      this.#endReplay();
-      this.#cameFrom?.focus();
-    }
-  }
-
   #show() {
     const { attempt, state } = this.#session;
     const last = attempt.actions.length;
@@ -303,11 +261,10 @@ class PlayPage {
   }
 
   #tellWhere() {
-    const shown = this.#replay.shown;
-    const state = shown?.entry.states[shown.at] ?? this.#session.state;
+    const state = this.#replay.state ?? this.#session.state;
     const words = `${describePosition(this.#world, state)} ${describeWay(this.#world, state)}`;
-    if (shown) announce(words);
-    else this.#hint(`${words}${this.#totalWords()}`);
+    if (this.#replay.isOn) announce(words);
+    else this.#hint.say(`${words}${this.#totalWords()}`);
   }
 
   /** @param {string} before @param {boolean} [hasPaid] */
@@ -322,23 +279,6 @@ class PlayPage {
     return this.#options.showTotals ? ` Total ${number(totalOf(this.#session.attempt))}.` : "";
   }
 
-  /** Say a sentence, below the board and aloud; until the next step, or until there is another. @param {string} sentence @param {{stays?: boolean}} [options] */
-  #hint(sentence, { stays = false } = {}) {
-    const hint = byId("hint");
-    hint.textContent = sentence;
-    hint.dataset.isUsual = "false";
-    hint.dataset.stays = String(stays);
-    announce(sentence);
-  }
-
-  /** What was said of a square or a moment is over with the next step. */
-  #forgetHint() {
-    const hint = byId("hint");
-    if (hint.dataset.isUsual === "true" || hint.dataset.stays === "true") return;
-    hint.replaceChildren(...this.#usualHint);
-    hint.dataset.isUsual = "true";
-  }
-
   #watchTime() {
     const timer = setInterval(() => {
       const now = performance.now();
@@ -350,7 +290,7 @@ class PlayPage {
 
   /** @param {number} now */
   #endByTime(now) {
-    if (this.#shows === "replay") this.#endReplay();
+    this.#replay.end();
     this.#keepOrFinish(now);
   }
 
@@ -399,7 +339,7 @@ class PlayPage {
     const words = await this.#leftBehind.takeUp();
     if (!words) return;
     this.#showBeginning("");
-    this.#hint(words);
+    this.#hint.say(words);
   }
 
   #toggleNumbers() {
