@@ -16,6 +16,8 @@ export class Effects {
   #note = make("span", "board-float");
   #bump = make("div", "board-bump");
   #joy = makeJoy();
+  /** @type {number | null} */
+  #joyAt = null;
   #cursor = make("div", "board-cursor");
   #frame = make("div", "board-frame");
   /** @type {WeakMap<Element, Animation>} */
@@ -53,6 +55,7 @@ export class Effects {
 
   /** Rays around a square, once; with reduced motion they stand still. @param {World} world @param {number} state */
   celebrate(world, state) {
+    this.#joyAt = state;
     this.#put(this.#joy, world, state);
     const grow = (/** @type {number} */ scale) => `translate(-50%, -50%) scale(${prefersStill() ? 1 : scale})`;
     this.#play(this.#joy, JOY_MS, [
@@ -61,6 +64,13 @@ export class Effects {
       { opacity: 1, transform: grow(1), offset: 0.6 },
       { opacity: 0, transform: grow(1.06) },
     ]);
+  }
+
+  /** Joy belongs to who stands there: it ends when the agent is elsewhere. @param {number | undefined} state */
+  follow(state) {
+    if (this.#joyAt === null || this.#joyAt === state) return;
+    this.#joyAt = null;
+    this.#joy.remove();
   }
 
   /** @param {World} world @param {number | null} state */

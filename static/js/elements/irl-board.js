@@ -102,6 +102,7 @@ export class IrlBoard extends HTMLElement {
     const [before, after] = [this.#view, { ...EMPTY_VIEW, ...view }];
     this.#view = after;
     this.#painter.compare(before, after);
+    this.#effects.follow(after.agents[0]?.state);
     this.#paintedAt = Number.NaN;
     this.#schedule();
     this.#tell();
