@@ -211,7 +211,7 @@ def test_on_a_phone_every_target_is_large_enough_for_a_finger(phone: Page) -> No
     small = """() => [...document.querySelectorAll("main button, main summary, main .option")]
       .filter((one) => one.checkVisibility({ visibilityProperty: true }))
       .map((one) => [one.ariaLabel ?? one.textContent.trim(), one.getBoundingClientRect()])
-      .filter(([, { width, height }]) => width < 24 || height < 24).map(([name]) => name)"""
+      .filter(([, { width, height }]) => width < 36 || height < 36).map(([name]) => name)"""
     assert phone.evaluate(small) == []
     phone.locator("#options summary").tap()
     assert phone.evaluate(small) == []
@@ -257,3 +257,18 @@ def test_a_gamepad_succeeds_takes_back_gives_up_and_plays_again(page: Page, base
     assert set(success["record"]["device"]) == {"gamepad"}
     undone = [event["value"] for event in success["record"]["events"] if event["type"] == "undo"]
     assert undone == [1, 1]
+
+
+def test_a_gamepad_pauses_a_replay_steps_through_it_and_goes_back(page: Page) -> None:
+    gamepad = Gamepad(page)
+    page.goto(SMALL)
+    gamepad.connect()
+    gamepad.walk(CHEAP)
+    page.locator('[data-act="replay"]').click()
+    gamepad.press("A")
+    expect(page.locator("#replay")).to_have_attribute("data-playing", "false")
+    at = int(page.locator("#replay-at").input_value())
+    gamepad.press("right")
+    expect(page.locator("#replay-at")).to_have_value(str(at + 1))
+    gamepad.press("B")
+    ways.expect_shows(page, "result")

@@ -76,7 +76,8 @@ export class Replaying {
   command(command) {
     if (command === "again") this.#bar.toggle();
     else if (command === "branch") this.#branch();
-    else if (command === "endReplay") {
+    else if (command === "endReplay" || command === "undo") {
+      // Escape; or the way back that a gamepad has.
       this.end();
       this.#cameFrom?.focus();
     }

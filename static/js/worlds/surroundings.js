@@ -14,6 +14,7 @@ export class Surroundings {
   constructor(board, world) {
     this.#world = world;
     new CloseUp(byId("close-up"), board);
+    byId("as-text-scroll").addEventListener("keydown", keepToScroll);
   }
 
   /** @param {number} state */
@@ -21,4 +22,11 @@ export class Surroundings {
     this.#position.textContent = describePosition(this.#world, state);
     this.#textBoard.update(this.#world, state);
   }
+}
+
+/** Where the table is larger than its place, arrow keys go over it rather than over the world. @param {KeyboardEvent} event */
+function keepToScroll(event) {
+  const place = /** @type {HTMLElement} */ (event.currentTarget);
+  const isLarger = place.scrollWidth > place.clientWidth || place.scrollHeight > place.clientHeight;
+  if (isLarger && event.key.startsWith("Arrow")) event.stopPropagation();
 }
