@@ -35,3 +35,7 @@ test("the refresh rate is the middle of the frames, whatever one slow frame did"
 test("a few frames say nothing about the rate", () => {
   assert.equal(refreshRate([0, 16, 33]), null);
 });
+
+test("no screen has a million frames a second", () => {
+  assert.equal(refreshRate(Array.from({ length: 20 }, (_, i) => i / 1000)), null);
+});

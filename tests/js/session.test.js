@@ -192,3 +192,20 @@ test("notes that storage has spoilt lose what is spoilt, lest the attempt be ref
   const none = new Recorder({ at: 0, notes: /** @type {any} */ ({ rt: "x", events: null }) }).record(10, CLIENT);
   assert.deepEqual([none.rt, none.events, none.abandoned], [[], [], []]);
 });
+
+test("what is kept of an attempt stays as it was, however long the writing takes", () => {
+  const session = makeSession();
+  walk(session, [RIGHT]);
+  const draft = session.draft(1200);
+  walk(session, [LEFT], { from: 1300 });
+  assert.deepEqual([draft.actions.length, draft.record.rt.length, draft.record.device.length], [1, 1, 1]);
+});
+
+test("an attempt goes on even if nothing is left of its measures", () => {
+  const session = makeSession();
+  walk(session, [RIGHT, LEFT]);
+  const draft = /** @type {any} */ ({ ...session.draft(1300), record: null });
+  const next = makeSession();
+  assert.ok(next.resume(draft, 50, null));
+  assert.deepEqual(next.record(60, CLIENT).device, ["copied", "copied"]);
+});

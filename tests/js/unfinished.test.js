@@ -100,7 +100,32 @@ test("two tabs never go on with the same attempt", async () => {
   const [one, other] = [browser.open("one"), browser.open("other")];
   const [left] = await Promise.all([one.left(), other.left()]);
   assert.equal(left.drafts.length, 1);
-  assert.deepEqual(await Promise.all([one.take("a"), other.take("a")]), [true, false]);
+  const taken = await Promise.all([one.take("a"), other.take("a")]);
+  assert.deepEqual([taken[0]?.id, taken[1]], ["a", null]);
+});
+
+test("an attempt that another tab took up and ended since it was offered does not come back", async () => {
+  const browser = makeBrowser([draft("a", 3)]);
+  const [one, other] = [browser.open("one"), browser.open("other")];
+  assert.equal((await one.left()).drafts.length, 1);
+  await other.take("a");
+  other.keep(draft("a", 4));
+  other.drop("a");
+  await settled();
+  browser.close("other");
+  assert.equal(await one.take("a"), null);
+  assert.equal((await browser.open("third").left()).drafts.length, 0);
+});
+
+test("an attempt that another tab took up and left again goes on where that one stood", async () => {
+  const browser = makeBrowser([draft("a", 3)]);
+  const [one, other] = [browser.open("one"), browser.open("other")];
+  await one.left();
+  await other.take("a");
+  other.keep(draft("a", 5));
+  await settled();
+  browser.close("other");
+  assert.equal((await one.take("a"))?.actions.length, 5);
 });
 
 test("each step is on its way to the storage before its key press is over", async () => {
@@ -153,7 +178,9 @@ for (const [what, wrong] of [
   ["with an action there is not", { actions: [1, 7, 1] }],
   ["with a time missing", { stepMs: [1] }],
   ["with times that are none", { stepMs: ["x", "y", "z"] }],
+  ["with times that are nothing", { stepMs: [1, null, 3] }],
   ["with seeds that are none", { slipSeeds: [[5]] }],
+  ["with the seeds of another", { slipSeeds: [["z", 0]] }],
   ["copied beyond its length", { parentId: "p", parentStep: 9 }],
   ["of a time that is none", { savedAt: "yesterday" }],
 ]) {

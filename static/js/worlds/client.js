@@ -1,6 +1,8 @@
 /** What a record says about the device an attempt was played on: kinds and sizes, nothing that names a person. */
 
 const FRAMES_WATCHED = 40;
+/** Frames that come faster are no screen's: a clock that lies, or frames made up by a test. */
+const SHORTEST_PAUSE_MS = 1;
 
 /** "desktop Chromium", "phone Safari", …: a class, not the user agent. @param {{userAgent: string, maxTouchPoints?: number}} agent */
 export function agentClass({ userAgent, maxTouchPoints = 0 }) {
@@ -17,12 +19,12 @@ function engineOf(userAgent) {
   return /Safari/.test(userAgent) ? "Safari" : "other";
 }
 
-/** The middle of the pauses between frames, as frames a second; null where there are too few. @param {readonly number[]} times ms */
+/** The middle of the pauses between frames, as frames a second; null where there are too few, or no screen has so many. @param {readonly number[]} times ms */
 export function refreshRate(times) {
   const pauses = times.slice(1).map((time, i) => time - (times[i] ?? 0));
   if (pauses.length < 8) return null;
   const middle = pauses.sort((a, b) => a - b)[pauses.length >> 1] ?? 0;
-  return middle > 0 ? Math.round(10_000 / middle) / 10 : null;
+  return middle >= SHORTEST_PAUSE_MS ? Math.round(10_000 / middle) / 10 : null;
 }
 
 export class Client {

@@ -42,7 +42,8 @@ export class LeftBehind {
     const { drafts, nDamaged } = await (await this.#store).left();
     for (const draft of drafts) if (this.#isKnown(draft.id)) this.drop(draft.id);
     this.#drafts = drafts.filter((draft) => !this.#isKnown(draft.id));
-    const welcome = this.#isIdle ? await this.takeUp() : "";
+    // A result that is being read stays on the page; the attempt is offered below it.
+    const welcome = this.#session.hasOwnSteps ? "" : await this.takeUp();
     this.show();
     return [welcome, nDamaged > 0 && damagedSentence(nDamaged)].filter(Boolean).join(" ");
   }
@@ -66,11 +67,13 @@ export class LeftBehind {
 
   /** Go on with the newest that no other tab was quicker to take. @returns {Promise<string>} what to say, or "" */
   async takeUp() {
-    const draft = this.#drafts.shift();
-    if (!draft) return "";
-    if (!(await (await this.#store).take(draft.id))) return this.takeUp();
-    // Somebody quick has begun another attempt meanwhile.
-    if (!this.#isIdle) return this.#putBack(draft);
+    const offered = this.#drafts.shift();
+    if (!offered) return "";
+    const { isOver } = this.#session;
+    const draft = await (await this.#store).take(offered.id);
+    if (!draft) return this.takeUp();
+    // Somebody quick has begun, or even finished, another attempt meanwhile.
+    if (!this.#isIdle || this.#session.isOver !== isOver) return this.#putBack(draft);
     const now = performance.now();
     if (!this.#session.resume(draft, now, Math.max(0, Date.now() - draft.savedAt))) {
       this.drop(draft.id);
@@ -80,11 +83,11 @@ export class LeftBehind {
     return `Welcome back: you stood at step ${draft.actions.length}. Play on, or restart.`;
   }
 
-  /** The person does not want the newest. */
-  forget() {
-    const draft = this.#drafts.shift();
-    if (draft) this.drop(draft.id);
+  /** The person does not want the newest. Another tab that has taken it up meanwhile keeps it. */
+  async forget() {
+    const offered = this.#drafts.shift();
     this.show();
+    if (offered && (await (await this.#store).take(offered.id))) this.drop(offered.id);
   }
 
   /** Offer what is left while no attempt is under way. */

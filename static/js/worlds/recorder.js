@@ -121,9 +121,11 @@ export class Recorder {
     return [...abandoned, { n_steps: rt.length, elapsed_ms: this.#at(when) }].slice(-MOST_ABANDONED);
   }
 
-  /** For the unfinished attempt. @param {number} when @returns {Notes} */
+  /** For the unfinished attempt, as they are now: they may be written only after the next step. @param {number} when @returns {Notes} */
   notes(when) {
-    return { ...this.#notes, elapsed_ms: this.#at(when) };
+    const { rt, device, events } = this.#notes;
+    const lists = { rt: rt.slice(), device: device.slice(), events: events.slice() };
+    return { ...this.#notes, ...lists, elapsed_ms: this.#at(when) };
   }
 
   /** For the server. @param {number} when @param {Record<string, unknown>} client */
@@ -138,8 +140,9 @@ export class Recorder {
   }
 }
 
-/** Notes from storage, whatever became of them there: what is not sound is left out, lest the attempt be refused for it. @param {Partial<Notes>} notes @returns {Notes} */
-function soundNotes({ rt, device, events, elapsed_ms, first_step_ms, abandoned }) {
+/** Notes from storage, whatever became of them there: what is not sound is left out, lest the attempt be refused for it. @param {Partial<Notes> | null} notes @returns {Notes} */
+function soundNotes(notes) {
+  const { rt, device, events, elapsed_ms, first_step_ms, abandoned } = notes ?? {};
   return {
     rt: soundList(rt, (one) => one === null || isMs(one)),
     device: soundList(device, (one) => DEVICES.includes(one)),

@@ -37,7 +37,7 @@ import { Recorder } from "#js/worlds/recorder.js";
  */
 
 /** A day: whoever comes back the next morning has left. */
-const LONGEST_STEP_MS = 86_400_000;
+export const LONGEST_STEP_MS = 86_400_000;
 
 export class PlaySession {
   #world;

@@ -7,6 +7,7 @@
 import { LastStraw } from "#js/lib/last-straw.js";
 import { Belongings } from "#js/lib/locks.js";
 import { ask, browserStorage } from "#js/lib/storage.js";
+import { LONGEST_STEP_MS } from "#js/worlds/session.js";
 
 /** @typedef {import("#js/worlds/session.js").Draft} Draft */
 
@@ -99,14 +100,17 @@ export class Unfinished {
   }
 
   /**
-   * Make a draft that was left this tab's own; false when another tab was quicker. Resolves before anything is drawn
-   * from it, so that two tabs never go on with the same attempt.
-   * @param {string} id
+   * Make a draft that was left this tab's own, and read how far it has come by now; null when another tab plays it, or
+   * has finished it or thrown it away since it was offered here. So two tabs never go on with the same attempt.
+   * @param {string} id @returns {Promise<Draft | null>}
    */
   async take(id) {
-    const isOurs = await this.#belongings.take(nameOf(id));
-    if (isOurs) remember(id);
-    return isOurs;
+    if (!(await this.#belongings.take(nameOf(id)))) return null;
+    const all = await this.#drafts.all().catch(() => []);
+    const draft = all.find((one) => one.id === id && !one.isSetAside && isSound(one));
+    if (draft) remember(id);
+    else this.#belongings.giveBack(nameOf(id));
+    return draft ?? null;
   }
 
   /** Attempts in this world that nobody plays any more: first this tab's own, then the newest. @returns {Promise<{drafts: Draft[], nDamaged: number}>} */
@@ -234,17 +238,34 @@ function oldDraft(text, worldId) {
   }
 }
 
-/** Whether it can be walked again. @param {any} draft */
-function isSound({ actions, stepMs, slipSeeds, parentId, parentStep, savedAt }) {
+/** Whether it can be walked again, and taken by the server once it is finished. @param {any} draft */
+function isSound({ id, actions, stepMs, slipSeeds, parentId, parentStep, savedAt }) {
   const isWalk =
     Array.isArray(actions) && actions.length > 0 && actions.every((action) => [0, 1, 2, 3].includes(action));
-  const isTimed = Array.isArray(stepMs) && stepMs.length === actions?.length && stepMs.every((ms) => ms >= 0);
-  const isSeeded =
-    Array.isArray(slipSeeds) &&
-    slipSeeds.length > 0 &&
-    slipSeeds.every((pair) => typeof pair?.[0] === "string" && Number.isInteger(pair?.[1]));
-  const isChild = parentId === null ? parentStep === 0 : typeof parentId === "string" && parentStep > 0;
+  const isTimed = Array.isArray(stepMs) && stepMs.length === actions?.length && stepMs.every(isMs);
+  const isSeeded = Array.isArray(slipSeeds) && slipSeeds.every(isSeed) && areInOrder(slipSeeds, id, parentStep);
+  const isChild =
+    parentId === null
+      ? parentStep === 0
+      : typeof parentId === "string" && Number.isInteger(parentStep) && parentStep > 0;
   return isWalk && isTimed && isSeeded && isChild && parentStep <= actions.length && Number.isFinite(savedAt);
+}
+
+/** @param {unknown} ms */
+function isMs(ms) {
+  return typeof ms === "number" && ms >= 0 && ms <= LONGEST_STEP_MS;
+}
+
+/** @param {any} pair */
+function isSeed(pair) {
+  return typeof pair?.[0] === "string" && Number.isInteger(pair?.[1]);
+}
+
+/** From step 0, rising, and by its own id at last. @param {[string, number][]} seeds @param {string} id @param {number} parentStep */
+function areInOrder(seeds, id, parentStep) {
+  const [seed, fromStep] = seeds.at(-1) ?? ["", -1];
+  const isRising = seeds.every(([, from], i) => (i === 0 ? from === 0 : from > (seeds[i - 1]?.[1] ?? 0)));
+  return isRising && seed === id && fromStep === parentStep;
 }
 
 /** @param {string} id */
