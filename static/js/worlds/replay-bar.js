@@ -44,9 +44,11 @@ export class ReplayBar {
     return this.#entry && { entry: this.#entry, at: this.#replay.at };
   }
 
-  /** Whether one can try again from the step on show. */
+  /** Whether one can try again from the step on show; never from an attempt that the server does not have and will not. */
   get canBranch() {
-    return this.#entry !== null && canBranch(this.#world, this.#entry, this.#replay.at);
+    return (
+      this.#entry !== null && this.#entry.sync !== "refused" && canBranch(this.#world, this.#entry, this.#replay.at)
+    );
   }
 
   /** @param {Entry} entry @param {number} n */
