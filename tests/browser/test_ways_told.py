@@ -159,6 +159,15 @@ def test_a_study_may_hide_every_total(browser: Browser, study: LiveServer) -> No
         expect(page.locator("[data-sort]")).to_have_count(0)
 
 
+def test_the_practice_of_such_a_study_shows_none_either(browser: Browser, study: LiveServer) -> None:
+    with ways.visit(browser, study.address) as page:
+        page.goto(SMALL)
+        page.locator("#practice-begin").click()
+        ways.press(page, "ArrowUp", "ArrowRight", "ArrowRight", "ArrowRight", "ArrowDown")
+        expect(page.locator("#practice-words")).to_have_text("A success: the goal paid 7, and some is left of it.")
+        assert "total" not in page.locator("#practice").inner_text()
+
+
 def expect_no_total(page: Page, totals: set[str]) -> None:
     told = page.evaluate(TOLD)
     assert not {total for total in totals if total in told}

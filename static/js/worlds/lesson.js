@@ -51,13 +51,15 @@ const HOW_TO_FAIL = {
 
 export class Lesson {
   #means;
+  #showTotals;
   /** @type {Part} */
   #part = "move";
   #attempt = beginAttempt(PRACTICE_WORLD, "practice");
 
-  /** @param {Means} means */
-  constructor(means) {
+  /** @param {Means} means @param {{showTotals?: boolean}} [options]   of the study */
+  constructor(means, { showTotals = true } = {}) {
     this.#means = means;
+    this.#showTotals = showTotals;
   }
 
   get part() {
@@ -138,11 +140,12 @@ export class Lesson {
 
   #endWords() {
     const total = signed(totalOf(this.#attempt));
-    if (this.#isLearnt()) return `A success: the goal paid 7, and ${total} is left of it.`;
+    const say = (/** @type {string} */ words) => (this.#showTotals ? words : "");
+    if (this.#isLearnt()) return `A success: the goal paid 7, and ${this.#showTotals ? total : "some"} is left of it.`;
     if (this.#part === "fail")
-      return `A success again, ${total}: for a failure walk through both red squares, or give up on the way.`;
+      return `A success again${say(`, ${total}`)}: for a failure walk through both red squares, or give up on the way.`;
     if (this.#attempt.ending === "goal")
-      return `You got there, but the red took more than the goal paid, ${total} in all: try it over blue.`;
+      return `You got there, but the red took more than the goal paid${say(`, ${total} in all`)}: try it over blue.`;
     return `All ${PRACTICE_WORLD.horizon} steps are used up: try it once more.`;
   }
 }

@@ -46,7 +46,9 @@ class Practice {
   #life = new AbortController();
   #dialog;
   #feedback;
-  #lesson = new Lesson(meansAtHand());
+  /** None where a study hides totals. */
+  #total = document.getElementById("practice-total");
+  #lesson = new Lesson(meansAtHand(), { showTotals: this.#total !== null });
   #board;
 
   /** @param {HTMLDialogElement} dialog @param {import("#js/worlds/feedback.js").Feedback} [feedback] */
@@ -146,7 +148,7 @@ class Practice {
     };
     this.#dialog.dataset.part = part;
     byId("practice-words").textContent = words;
-    byId("practice-total").textContent = number(totalOf(attempt));
+    if (this.#total) this.#total.textContent = number(totalOf(attempt));
     byId("practice-position").textContent = describePosition(PRACTICE_WORLD, state);
     for (const item of this.#all("[data-practice-part]")) {
       const ahead = PARTS.indexOf(item.dataset.practicePart ?? "") - PARTS.indexOf(part);
