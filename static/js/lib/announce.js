@@ -4,6 +4,8 @@
  */
 
 let pending = "";
+/** @type {string[]} */
+let news = [];
 let timer = 0;
 
 /**
@@ -13,13 +15,25 @@ let timer = 0;
  */
 export function announce(sentence) {
   pending = sentence;
+  breathe();
+}
+
+/** Say a sentence that comes by itself (the server has gone, ten seconds are left): after what is said just now, not in its place. @param {string} sentence */
+export function announceToo(sentence) {
+  news.push(sentence);
+  breathe();
+}
+
+function breathe() {
   clearTimeout(timer);
   timer = window.setTimeout(speak, 80);
 }
 
 function speak() {
   const region = document.querySelector("dialog[open] [data-announcer]") ?? document.getElementById("announcer");
+  const words = [pending, ...news].filter(Boolean).join(" ");
+  [pending, news] = ["", []];
   if (!region) return;
   // The same text twice is no change, hence silent; a trailing no-break space makes it new.
-  region.textContent = region.textContent === pending ? `${pending}\u00a0` : pending;
+  region.textContent = region.textContent === words ? `${words}\u00a0` : words;
 }

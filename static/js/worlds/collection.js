@@ -1,6 +1,6 @@
 /** The finished attempts of this world: counted, listed, saved, discarded, restored; and the way on to ranking. */
 
-import { announce } from "#js/lib/announce.js";
+import { announce, announceToo } from "#js/lib/announce.js";
 import { byId } from "#js/lib/dom.js";
 import { openOutbox } from "#js/lib/outbox.js";
 import { isRefused } from "#js/lib/parcels.js";
@@ -141,7 +141,7 @@ export class Collection {
     } else {
       Object.assign(entry, { sync: "refused", discarded: false, note: refusalSentence(parcel) });
     }
-    announce(entry.note ?? "");
+    announceToo(entry.note ?? "");
   }
 
   /** @param {Entry} entry @param {boolean} discarded */

@@ -6,7 +6,7 @@ import { facingOf } from "#js/board/facing.js";
 import { listenToKeys, listenToPointer } from "#js/board/input.js";
 import { outcomeOf, totalOf } from "#js/board/moves.js";
 import { DELTAS, DIRECTIONS, nextState, placeOf, rewardOf } from "#js/board/state.js";
-import { announce } from "#js/lib/announce.js";
+import { announce, announceToo } from "#js/lib/announce.js";
 import { byId } from "#js/lib/dom.js";
 import { number, signed } from "#js/lib/format.js";
 import { pageData } from "#js/lib/page-data.js";
@@ -45,7 +45,7 @@ class PlayPage {
   #slot = byId("now");
   #session = new PlaySession({ world: this.#world, newId: uuid, at: performance.now() });
   #client = new Client(this.#options);
-  #scoreboard = new Scoreboard(announce, this.#world.time_limit_s);
+  #scoreboard = new Scoreboard(announceToo, this.#world.time_limit_s);
   #feedback = new Feedback();
   #surroundings = new Surroundings(this.#board, this.#world);
   #numbers = false;

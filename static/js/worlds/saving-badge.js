@@ -1,6 +1,6 @@
 /** The badge beside the list: saved, waiting, offline, busy, or in this page alone; with a sentence where that needs one. */
 
-import { announce } from "#js/lib/announce.js";
+import { announceToo } from "#js/lib/announce.js";
 import { byId } from "#js/lib/dom.js";
 import { savingNews, savingWords } from "#js/worlds/saving-words.js";
 
@@ -62,7 +62,7 @@ export class SavingBadge {
   #tell(words) {
     const news = savingNews(words, this.#sync);
     this.#sync = words.sync;
-    if (news) announce(news);
+    if (news) announceToo(news);
   }
 
   /** Ask before the page is closed, but only while that would lose something. @param {boolean} isNeeded */
