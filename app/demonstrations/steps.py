@@ -59,7 +59,9 @@ def _rows(world: StoredWorld, colours: Sequence[str], attempt: Demonstration, n:
         place = divmod(state, world.world.cols)
         went = (attempt.actions[t], direction, reached, colours[reached], attempt.rewards[t])
         measured = (_at(times, t), _at(record.get("rt", []), t), _at(devices, t))
-        counted = (happened["undo", t + 1], happened["blur", t], happened["hidden", t])
+        counted = (
+            (happened["undo", t + 1], happened["blur", t], happened["hidden", t]) if record else (None, None, None)
+        )
         yield [*about_it, t + 1, state, *place, *went, *measured, *counted]
 
 

@@ -241,7 +241,10 @@ def test_the_table_of_steps_has_a_row_for_each_step_and_is_mine_alone(client, ot
         slip_direction(parent["id"], t, action, 0.3) for t, action in enumerate([1, 2])
     ]
     assert [float(row["reward"]) for row in rows] == parent["rewards"] + child["rewards"] + plain["rewards"]
-    assert {bare[name] for name in ("rt", "device", "agent", "elapsed_ms", "parent_id", "abandoned")} == {""}
+    assert {
+        bare[name]
+        for name in ("rt", "device", "agent", "elapsed_ms", "parent_id", "abandoned", "undone", "blurs", "hidden")
+    } == {""}
     assert table(other_client, world) == []
 
 
