@@ -101,6 +101,19 @@ def test_a_board_says_when_its_view_was_painted(page: Page) -> None:
     assert (found["isWaiting"], found["late"], found["after"]) == (True, 0, 0)
 
 
+def test_figures_that_come_and_go_leave_it_as_it_was(page: Page) -> None:
+    action = """
+    async ({ board, frame }) => {
+      const before = board.paintedAt;
+      board.view = { ...board.view, numbers: true };
+      const waiting = board.paintedAt;
+      await frame();
+      return [waiting - before, board.paintedAt - before];
+    }
+    """
+    assert on_a_board(page, action) == [0, 0]
+
+
 def test_costs_in_quick_succession_take_each_others_place(page: Page) -> None:
     action = """
     async ({ board, frame }) => {

@@ -103,14 +103,14 @@ export class IrlBoard extends HTMLElement {
     this.#view = after;
     this.#painter.compare(before, after);
     this.#effects.follow(after.agents[0]?.state);
-    this.#paintedAt = Number.NaN;
+    if (before.agents !== after.agents || before.paths !== after.paths) this.#paintedAt = Number.NaN;
     this.#schedule();
     this.#tell();
   }
 
   /**
-   * When the present view was painted: the time of that animation frame (ms, the clock of `event.timeStamp`); NaN while
-   * it waits for one.
+   * When the agents and paths of the present view were painted: the time of that animation frame (ms, the clock of
+   * `event.timeStamp`); NaN while they wait for one. Figures that are shown or hidden leave it as it is.
    */
   get paintedAt() {
     return this.#paintedAt;
