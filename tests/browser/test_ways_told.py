@@ -196,7 +196,7 @@ def test_the_page_reads_sensibly_before_the_first_step(page: Page) -> None:
           - heading "Play your best and your worst. Watch algorithms learn from both." [level=1]
           - application /World of 3 by 4 squares\\. Arrow keys move you, with Shift they look around; I says where/
           - paragraph: "Row 1, column 1. Up: the edge; right: blue −0.5; down: blue −0.5; left: the edge."
-          - text: "blue: 0 to −1 red, hatched: −1 to −7 goal: +7 The deeper the colour, the more a square costs."
+          - text: "blue: 0 to −1 red, hatched: −1 to −7 goal: +7 Stronger colours cost more."
           - button "Numbers"
           - group: Options
         - complementary "Your play":
