@@ -38,8 +38,7 @@ def path_state(session: Session, visitor_id: str | None, world_id: str, current:
         world_id=world_id,
         n_successes=len(kept["success"]),
         n_failures=len(kept["failure"]),
-        ranked=any(kept.values())
-        and all(_is_ranked(session, visitor_id, world_id, outcome, ids) for outcome, ids in kept.items()),
+        ranked=_is_ranked(session, visitor_id, world_id, kept),
         run_id=run.id if run else None,
         run_status=run.status if run else None,
         current=current,
@@ -60,13 +59,17 @@ def _latest_run(session: Session, visitor_id: str, world_id: str) -> "Row[str, s
     return session.execute(select(Run.id, Run.status).where(*theirs).order_by(Run.created_at.desc()).limit(1)).first()
 
 
-def _is_ranked(session: Session, visitor_id: str, world_id: str, outcome: str, ids: set[str]) -> bool:
-    """Whether the newest order of this outcome holds exactly what is kept; there is nothing to order in one."""
-    if len(ids) <= 1:
-        return True
+def _is_ranked(session: Session, visitor_id: str, world_id: str, kept: dict[str, set[str]]) -> bool:
+    """Whether an order was confirmed, and the newest hold exactly what is kept; one attempt alone needs none."""
+    ranked = {outcome: _ranked_ids(session, visitor_id, world_id, outcome) for outcome in kept}
+    is_settled = all(len(ids) <= 1 or ids == ranked[outcome] for outcome, ids in kept.items())
+    return any(kept.values()) and any(ranked.values()) and is_settled
+
+
+def _ranked_ids(session: Session, visitor_id: str, world_id: str, outcome: str) -> set[str]:
     theirs = (Ranking.visitor_id == visitor_id, Ranking.world_id == world_id, Ranking.outcome == outcome)
     order = session.scalar(select(Ranking.order).where(*theirs).order_by(Ranking.version.desc()).limit(1))
-    return order is not None and {member for group in order for member in group} == ids
+    return {member for group in order or [] for member in group}
 
 
 def latest_world_id(session: Session, visitor_id: str) -> str | None:

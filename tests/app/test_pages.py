@@ -88,6 +88,15 @@ def test_the_path_counts_what_is_kept_and_ranked(client):
     assert path_of(client, world).n_failures == 0
 
 
+def test_nobody_has_ranked_who_confirmed_no_order(client):
+    world = make_world(client)
+    alone = make_demonstration(client, world)["id"]
+    make_demonstration(client, world, failed=True)
+    assert not path_of(client, world).ranked
+    make_ranking(client, world, "success", [alone])
+    assert path_of(client, world).ranked
+
+
 def path_of(client, world) -> PathState:
     from app.models import Visitor
 
