@@ -68,7 +68,7 @@ export class LeftBehind {
   /** Go on with the newest that no other tab was quicker to take. @returns {Promise<string>} what to say, or "" */
   async takeUp() {
     const offered = this.#drafts.shift();
-    if (!offered) return "";
+    if (!offered) return this.#offerNothing();
     const { isOver } = this.#session;
     const draft = await (await this.#store).take(offered.id);
     if (!draft) return this.takeUp();
@@ -104,6 +104,11 @@ export class LeftBehind {
     if (lasts || this.#hasWarned) return;
     this.#hasWarned = true;
     this.#warn(NO_ROOM);
+  }
+
+  #offerNothing() {
+    this.show();
+    return "";
   }
 
   /** @param {Draft} draft */

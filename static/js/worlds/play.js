@@ -337,9 +337,9 @@ class PlayPage {
 
   async #takeUp() {
     const words = await this.#leftBehind.takeUp();
-    if (!words) return;
-    this.#showBeginning("");
-    this.#hint.say(words);
+    if (words) this.#showBeginning("");
+    this.#hint.say(words || "That attempt is over: another tab went on with it.");
+    this.#board.focus({ preventScroll: true });
   }
 
   #toggleNumbers() {
