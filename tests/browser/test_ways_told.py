@@ -200,12 +200,6 @@ def test_the_page_reads_sensibly_before_the_first_step(page: Page) -> None:
           - button "Numbers"
           - group: Options
         - complementary "Your play":
-          - region "Practice":
-            - paragraph:
-              - strong: New here?
-              - text: "Practise first: one minute."
-            - button "Practise"
-            - button "Skip"
           - region "This attempt":
             - heading "This attempt" [level=2]
             - term: total
@@ -223,6 +217,12 @@ def test_the_page_reads_sensibly_before_the_first_step(page: Page) -> None:
             - paragraph: 0 of 3 successes 0 of 3 failures
             - list
             - paragraph: /Each attempt you finish appears here/
+          - region "Practice":
+            - paragraph:
+              - strong: New here?
+              - text: "Practise first: one minute."
+            - button "Practise"
+            - button "Skip"
           - paragraph: 3 successes and 3 failures to go.
           - link "Rank them" [disabled]
         - list
@@ -289,6 +289,6 @@ def test_the_page_reads_sensibly_with_a_result_and_two_attempts(page: Page) -> N
               - text: /✓ success \\+5\\.0 · 5 steps/
               - button "Replay attempt 1"
               - button "Discard attempt 1"
-        - paragraph: 2 successes and 2 failures to go. You can rank already.
+        - paragraph: 2 successes and 2 failures to go, or rank now.
         - link "Rank them"
     """)

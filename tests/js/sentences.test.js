@@ -60,7 +60,7 @@ test("time left reads as minutes and seconds", () => {
 test("what is missing is said, and ranking opens with one of each", () => {
   const say = (nSuccesses, nFailures) => missingSentence({ nSuccesses, nFailures, nWanted: 3 });
   assert.equal(say(0, 0), "3 successes and 3 failures to go.");
-  assert.equal(say(3, 2), "1 failure to go. You can rank already.");
+  assert.equal(say(3, 2), "1 failure to go, or rank now.");
   assert.match(say(3, 3), /complete/);
   assert.ok(!canRank({ nSuccesses: 3, nFailures: 0 }));
   assert.ok(canRank({ nSuccesses: 1, nFailures: 1 }));

@@ -8,11 +8,16 @@ export class Hint {
   #usual = [...this.#line.childNodes];
 
   /** Say a sentence, here and aloud; until the next step, or until there is another. @param {string} sentence @param {{stays?: boolean}} [options] */
-  say(sentence, { stays = false } = {}) {
+  say(sentence, options) {
+    this.show(sentence, options);
+    announce(sentence);
+  }
+
+  /** Show a sentence that is said otherwise. @param {string} sentence @param {{stays?: boolean}} [options] */
+  show(sentence, { stays = false } = {}) {
     this.#line.textContent = sentence;
     this.#line.dataset.isUsual = "false";
     this.#line.dataset.stays = String(stays);
-    announce(sentence);
   }
 
   /** What was said of a square or a moment is over with the next step. */

@@ -139,7 +139,7 @@ class PlayPage {
     else if (command === "undo") this.#undo();
     else if (command === "giveUp") this.#giveUp();
     else if (command === "again" && this.#shows === "result") this.#begin();
-    else if (command === "restart" && (this.#session.hasOwnSteps || this.#session.isOver)) this.#begin();
+    else if (command === "restart" && this.#session.attempt.actions.length > 0) this.#begin();
   }
 
   /** What the slot beside the board shows: "playing", "result", or "replay" (replaying.js). */
@@ -167,6 +167,7 @@ class PlayPage {
     this.#leaveAttempt();
     this.#session.beginFrom(entry, at, performance.now());
     this.#showBeginning(`A new attempt, from step ${at} on.`);
+    this.#hint.show(`A new attempt, from step ${at} on. Restart goes back to the start.`);
   }
 
   /** The attempt on the board makes room for another: what is unfinished of it is thrown away. */
@@ -244,9 +245,10 @@ class PlayPage {
     this.#scoreboard.show(attempt.rewards);
     this.#scoreboard.showTime(this.#session.timeLeft(performance.now()));
     this.#surroundings.show(state);
-    const hasNone = !this.#session.hasOwnSteps || this.#session.isOver;
     for (const button of document.querySelectorAll(".now-actions button")) {
-      /** @type {HTMLButtonElement} */ (button).disabled = hasNone;
+      // What was begun from the midst of another can be left for the start without a step of one's own.
+      const isOfUse = button.matches('[data-command="restart"]') ? last > 0 : this.#session.hasOwnSteps;
+      /** @type {HTMLButtonElement} */ (button).disabled = this.#session.isOver || !isOfUse;
     }
   }
 

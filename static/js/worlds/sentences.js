@@ -43,8 +43,7 @@ export function missingSentence({ nSuccesses, nFailures, nWanted }) {
     nFailures < nWanted ? plural(nWanted - nFailures, "failure") : "",
   ].filter(Boolean);
   if (missing.length === 0) return "Your attempts are complete. Put them in order, or play on.";
-  const text = `${missing.join(" and ")} to go.`;
-  return canRank({ nSuccesses, nFailures }) ? `${text} You can rank already.` : text;
+  return `${missing.join(" and ")} to go${canRank({ nSuccesses, nFailures }) ? ", or rank now" : ""}.`;
 }
 
 /** @param {{nSuccesses: number, nFailures: number}} counts */
