@@ -27,12 +27,13 @@ FOCUSED: Final = """() => {
   const place = here.id === "board" ? here.querySelector(".board-stage") : here;
   const { outlineStyle, outlineWidth } = getComputedStyle(place);
   const box = place.getBoundingClientRect();
-  const seen = document.elementFromPoint(box.x + box.width / 2, Math.max(1, box.y + Math.min(box.height, 40) / 2));
+  const [top, bottom] = [Math.max(0, box.top), Math.min(innerHeight, box.bottom, Math.max(0, box.top) + 40)];
+  const seen = document.elementFromPoint(box.x + box.width / 2, (top + bottom) / 2);
   return {
     name: here.getAttribute("aria-label") ?? here.textContent.trim().replace(/\\s+/g, " ").slice(0, 40),
     isBody: here === document.body,
     hasRing: outlineStyle !== "none" && parseFloat(outlineWidth) >= 2,
-    isInWindow: box.left >= 0 && box.right <= innerWidth + 1 && box.top < innerHeight && box.bottom > 0,
+    isInWindow: box.left >= 0 && box.right <= innerWidth + 1 && bottom - top >= 8,
     isOnTop: seen !== null && (here.contains(seen) || seen.contains(here)),
   };
 }"""
