@@ -200,5 +200,5 @@ def _span(run: list[int]) -> str:
 
 
 def _number(value: float) -> str:
-    """As JavaScript writes it: 3 rather than 3.0, 1e-7 rather than 1e-07."""
+    """Write it short: 3 rather than 3.0, 1e-7 rather than 1e-07."""
     return repr(value).removesuffix(".0").replace("e-0", "e-")

@@ -16,7 +16,7 @@ from app.worlds.convert import StoredWorld
 from app.worlds.schemas import WorldIn
 from irl_core import InvalidWorld
 
-MOST_SURPRISES = 20
+MOST_SURPRISES = 50
 
 
 def create(database: Database, visitor_id: str, parameters: WorldIn) -> StoredWorld:
@@ -47,7 +47,10 @@ def surprise(rng: random.Random) -> str:
     """Return the query of a world nobody asked for, in which a success is possible."""
     for _ in range(MOST_SURPRISES):
         try:
-            return write_query(convert.generate(WorldIn(**presets.surprise(rng))).smallest_body)
-        except InvalidWorld:  # these walls close the way, or there is too much red
+            # With a seed: without one, a hopeless idea would be drawn a thousand times before it is given up.
+            made = convert.generate(WorldIn(seed=rng.getrandbits(32), **presets.surprise(rng)))
+        except InvalidWorld:  # these walls close the way
             continue
+        if made.world.success_possible:
+            return write_query(made.smallest_body)
     return write_query(convert.generate(WorldIn()).smallest_body)
