@@ -43,7 +43,8 @@ export class Client {
     const is = (/** @type {string} */ query) => matchMedia(query).matches;
     return {
       agent: agentClass(navigator),
-      viewport: [window.innerWidth, window.innerHeight],
+      // Whole numbers by the book; Firefox has given fractions when zoomed.
+      viewport: [Math.round(window.innerWidth), Math.round(window.innerHeight)],
       pixel_ratio: window.devicePixelRatio,
       refresh_hz: refreshRate(this.#frames),
       pointer: is("(pointer: coarse)") ? "coarse" : "fine",
