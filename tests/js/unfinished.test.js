@@ -164,6 +164,18 @@ test("a finished attempt is gone, even if a step of it was still to be written",
   assert.deepEqual((await browser.open("other").left()).drafts, []);
 });
 
+test("an attempt taken back to its start and begun again at once stays this tab's own", async () => {
+  const browser = makeBrowser();
+  const tab = browser.open("tab");
+  tab.keep(draft("a", 1));
+  await settled();
+  tab.drop("a");
+  tab.keep(draft("a", 1));
+  await settled();
+  assert.ok(browser.drafts.has("a"));
+  assert.deepEqual((await browser.open("other").left()).drafts, []);
+});
+
 test("the newest comes first, and those of other worlds not at all", async () => {
   const stored = [draft("old", 1), draft("new", 2, { savedAt: 9 }), draft("else", 3, { worldId: "v" })];
   const { drafts } = await makeBrowser(stored).open("tab").left();

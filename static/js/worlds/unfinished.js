@@ -33,6 +33,8 @@ export class Unfinished {
   #toWrite = new Map();
   /** @type {Promise<void> | null} */
   #writing = null;
+  /** Attempts being played, by id: one may be taken back to its start and begun again while it is being deleted. @type {Set<string>} */
+  #kept = new Set();
   /** What the storage does not have yet, by id. @type {Map<string, Draft>} */
   #unwritten = new Map();
   #lasts = true;
@@ -76,6 +78,7 @@ export class Unfinished {
    */
   keep(draft) {
     const { id, actions } = draft;
+    this.#kept.add(id);
     if (!this.#belongings.has(nameOf(id))) this.#own(id);
     this.#unwritten.set(id, draft);
     if (actions.length > MOST_STEPS_AT_ONCE) this.#later(draft);
@@ -92,11 +95,12 @@ export class Unfinished {
 
   /** It is finished, or thrown away. @param {string} id */
   drop(id) {
+    this.#kept.delete(id);
     this.#unwritten.delete(id);
     this.#lastStraw.drop(id);
     this.#toWrite.delete(id);
     const gone = this.#drafts.delete(id).catch(() => {});
-    void gone.then(() => this.#belongings.giveBack(nameOf(id)));
+    void gone.then(() => this.#kept.has(id) || this.#belongings.giveBack(nameOf(id)));
   }
 
   /**
