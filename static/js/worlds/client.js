@@ -43,7 +43,7 @@ export class Client {
     const is = (/** @type {string} */ query) => matchMedia(query).matches;
     return {
       agent: agentClass(navigator),
-      // Whole numbers by the book; Firefox has given fractions when zoomed.
+      // Whole numbers, whatever a browser makes of them when zoomed.
       viewport: [Math.round(window.innerWidth), Math.round(window.innerHeight)],
       pixel_ratio: window.devicePixelRatio,
       refresh_hz: refreshRate(this.#frames),
