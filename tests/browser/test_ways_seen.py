@@ -137,6 +137,7 @@ def test_enlarged_everything_is_reached_and_seen_by_keyboard(browser: Browser, b
         ways.expect_shows(page, "playing")
         ways.tab_to(page, page.locator("#as-text summary"))
         page.keyboard.press("Enter")
+        expect(page.locator("#text-board tr")).to_have_count(4)
         table = page.locator("#as-text-scroll")
         ways.tab_to(page, table)
         if table.evaluate("place => place.scrollWidth > place.clientWidth"):
