@@ -27,6 +27,12 @@ test("a square is told with its place, its colour and its reward", () => {
   );
 });
 
+test("a goal that pays a part of a point does not pay nothing", () => {
+  const painted = makeWorld([[0, 0.4]]);
+  assert.equal(describeSquare(painted, 1), "Row 1, column 2: the goal, plus 0.4.");
+  assert.equal(wordsOf(painted, 1), "goal +0.4");
+});
+
 test("the way to the nearest goal is told as steps down and aside", () => {
   assert.equal(describeWay(small, 0), "The goal is 1 down and 2 right.");
   assert.equal(describeWay(small, 2), "The goal is 1 down.");

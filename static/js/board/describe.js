@@ -41,7 +41,7 @@ export function wordsOf(world, state) {
   const colour = colourOf(world, state);
   const reward = rewardOf(world, state);
   if (colour === "wall") return "wall";
-  return colour === "goal" ? `goal +${number(reward, 0)}` : `${colour} ${number(reward)}`;
+  return colour === "goal" ? `goal +${payOf(reward)}` : `${colour} ${number(reward)}`;
 }
 
 /** @param {World} world @param {number} state */
@@ -54,8 +54,13 @@ function describePlace(world, state) {
 function describeGround(world, state, pause) {
   const colour = colourOf(world, state);
   if (colour === "wall") return "a wall";
-  if (colour === "goal") return `the goal, plus ${number(rewardOf(world, state), 0)}`;
+  if (colour === "goal") return `the goal, plus ${payOf(rewardOf(world, state))}`;
   return `${colour}${pause}${number(rewardOf(world, state))}`;
+}
+
+/** "14"; a goal that was painted may pay 0.4. @param {number} reward */
+function payOf(reward) {
+  return number(reward, Number.isInteger(reward) ? 0 : 1);
 }
 
 /** @param {World} world @param {number} state @param {number} action */
