@@ -25,7 +25,7 @@ export function drawInk(scene) {
   if (view.visits) drawVisits(scene);
   drawPaths(scene);
   if (view.arrows && !(view.numbers && isTight(scene))) drawArrows(scene);
-  if (view.numbers) drawFigures(scene);
+  drawFigures(scene, figuredStates(scene));
 }
 
 /** Too small for arrows and figures together. @param {Scene} scene */
@@ -111,8 +111,15 @@ function dart(path, { x, y, dx, dy, length, width }) {
   path?.closePath();
 }
 
-/** @param {Scene} scene */
-function drawFigures(scene) {
+/** Squares that show their figure: all where it is asked for, else goals of which one pays more than another. @param {Scene} scene */
+function figuredStates({ world, view }) {
+  if (view.numbers) return Array(world.rows * world.cols).keys();
+  const pays = new Set(view.values ? [] : world.goals.map((goal) => rewardOf(world, goal)));
+  return pays.size > 1 ? world.goals : [];
+}
+
+/** @param {Scene} scene @param {Iterable<number>} states */
+function drawFigures(scene, states) {
   const { context, geometry, world, view, look, theme } = scene;
   const { cell, ratio } = geometry;
   if (cell < SMALLEST_FIGURES * ratio) return;
@@ -121,7 +128,7 @@ function drawFigures(scene) {
   context.font = `600 ${size}px ${getComputedStyle(context.canvas).fontFamily}`;
   context.textAlign = "center";
   context.textBaseline = "middle";
-  for (let state = 0; state < world.rows * world.cols; state++) {
+  for (const state of states) {
     if (colourOf(world, state) === "wall") continue;
     const [row, col] = placeOf(world, state);
     const value = view.values ? (view.values[state] ?? 0) : rewardOf(world, state);
