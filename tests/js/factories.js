@@ -23,3 +23,23 @@ export function makeWorld(rewards, more = {}) {
     ...more,
   };
 }
+
+/** An outbox that is kept in memory. @returns {import("#js/lib/parcels.js").Store} */
+export function memoryParcels() {
+  /** @type {Map<number, import("#js/lib/parcels.js").Parcel>} */
+  const kept = new Map();
+  let last = 0;
+  return {
+    async add(parcel) {
+      for (const [seq, { id }] of kept) if (id === parcel.id) kept.delete(seq);
+      last += 1;
+      kept.set(last, { ...parcel, seq: last });
+      return { ...parcel, seq: last };
+    },
+    async refuse(parcel) {
+      if (kept.has(Number(parcel.seq))) kept.set(Number(parcel.seq), parcel);
+    },
+    delete: async (parcel) => void kept.delete(Number(parcel.seq)),
+    all: async () => [...kept.values()],
+  };
+}

@@ -2,7 +2,8 @@ import assert from "node:assert/strict";
 import test from "node:test";
 import { ApiError } from "#js/lib/api.js";
 import { Outbox } from "#js/lib/outbox.js";
-import { memoryParcels, wishId } from "#js/lib/parcels.js";
+import { wishId } from "#js/lib/parcels.js";
+import { memoryParcels } from "./factories.js";
 
 const parcel = (id, more = {}) => ({
   id,

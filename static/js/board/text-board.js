@@ -79,7 +79,7 @@ export class TextBoard {
 }
 
 /** "you, start, blue −0.3" @param {World} world @param {number} state @param {number} here where the agent stands */
-export function textOfSquare(world, state, here) {
+function textOfSquare(world, state, here) {
   const words = [state === here ? "you" : "", state === world.start ? "start" : "", wordsOf(world, state)];
   return words.filter(Boolean).join(", ");
 }

@@ -75,26 +75,6 @@ async function deleteById(outbox, id) {
   if (seq !== undefined) outbox.delete(seq);
 }
 
-/** The same in memory. @returns {Store} */
-export function memoryParcels() {
-  /** @type {Map<number, Parcel>} */
-  const kept = new Map();
-  let last = 0;
-  return {
-    async add(parcel) {
-      for (const [seq, { id }] of kept) if (id === parcel.id) kept.delete(seq);
-      last += 1;
-      kept.set(last, { ...parcel, seq: last });
-      return { ...parcel, seq: last };
-    },
-    async refuse(parcel) {
-      if (kept.has(Number(parcel.seq))) kept.set(Number(parcel.seq), parcel);
-    },
-    delete: async (parcel) => void kept.delete(Number(parcel.seq)),
-    all: async () => [...kept.values()],
-  };
-}
-
 /** @param {Pick<Parcel, "refusal">} parcel */
 export function isRefused({ refusal }) {
   return typeof refusal === "string";

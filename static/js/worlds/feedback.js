@@ -74,11 +74,6 @@ export class Feedback extends EventTarget {
     this.#vibrate(outcome === "success" ? [20, 50, 30] : [30]);
   }
 
-  /** Browsers let a page sound only from a key, a click or a tap on: call this in one, and the first sound is in time. */
-  unlock() {
-    if (this.#sound) void this.#running();
-  }
-
   /** @param {Note[]} notes @param {number} [patience] ms */
   async #play(notes, patience = LATEST_MS) {
     if (!this.#sound || notes.length === 0) return;

@@ -104,11 +104,6 @@ export class Recorder {
     return by;
   }
 
-  /** Ms since the attempt began. @param {number} when */
-  elapsed(when) {
-    return this.#at(when);
-  }
-
   /** Ms since the first step of one's own; 0 before it. @param {number} when */
   sinceFirstStep(when) {
     const first = this.#notes.first_step_ms;

@@ -22,7 +22,7 @@ export const GONE =
   "The server cannot be reached just now, so this world is not checked yet. Paint on: nothing is lost.";
 export const TOO_LARGE =
   "So many squares are painted that this world is not checked while you paint. It is checked when you play or share it.";
-export const SHUT = "Walls close every way from the start to a goal. Open one of them.";
+const SHUT = "Walls close every way from the start to a goal. Open one of them.";
 
 /**
  * What can be told to be impossible without asking the server; its own words come when it has to be asked.
