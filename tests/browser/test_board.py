@@ -322,3 +322,22 @@ def test_the_board_can_be_read_as_a_table(page: Page) -> None:
     large = on_a_board(page, action, n=40)
     assert large["rows"] == 16
     assert large["caption"] == "Around you: rows 1 to 15 of 40, columns 1 to 15 of 40."
+
+
+def test_goals_tell_what_they_pay_where_one_pays_more_than_another(page: Page) -> None:
+    action = """
+    async ({ board, world, frame, stand }) => {
+      const inkOf = async (pays) => {
+        const rewards = world.rewards.map((row) => [...row]);
+        [rewards[0][6], rewards[6][6]] = pays;
+        board.world = { ...world, goals: [6, 48], rewards };
+        stand(0);
+        await frame();
+        await frame();
+        return board.querySelector(".board-ink").toDataURL();
+      };
+      const [alike, different] = [await inkOf([14, 14]), await inkOf([3, 24])];
+      return { alike: alike === (await inkOf([3, 3])), different: different !== alike };
+    }
+    """
+    assert on_a_board(page, action) == {"alike": True, "different": True}

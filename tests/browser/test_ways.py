@@ -100,6 +100,18 @@ def test_an_attempt_is_tried_again_from_the_midst_of_another_by_keyboard_alone(p
     assert child["record"]["device"] == ["copied", "copied", "key", "key", "key"]
 
 
+def test_from_the_midst_of_another_a_way_leads_back_to_the_start(page: Page) -> None:
+    page.goto(SMALL)
+    walk.play_by_keys(page, CHEAP)
+    page.locator('[data-act="replay"]').click()
+    steer_the_replay(page)
+    page.keyboard.press("t")
+    expect(page.locator("#hint")).to_have_text("A new attempt, from step 2 on. Restart goes back to the start.")
+    page.keyboard.press("r")
+    ways.expect_state(page, 0)
+    expect(page.locator("#n-steps")).to_have_text("0")
+
+
 def steer_the_replay(page: Page) -> None:
     """Pause it, step through it, change its speed; in the end it stands after two steps."""
     page.keyboard.press("Space")
