@@ -338,6 +338,7 @@ class PlayPage {
   }
 
   async #takeUp() {
+    this.#replay.end();
     const words = await this.#leftBehind.takeUp();
     if (words) this.#showBeginning("");
     this.#hint.say(words || "That attempt is over: another tab went on with it.");
