@@ -157,20 +157,22 @@ def test_joy_is_over_within_a_second_and_stands_still_with_reduced_motion(
     context.close()
 
 
-def test_joy_stays_behind_nobody(page: Page) -> None:
-    """Whoever begins again within the second would else fail under the last success's sun."""
+@pytest.mark.parametrize("mark", ["joy", "bump"])
+def test_joy_and_bumps_stay_behind_nobody(page: Page, mark: str) -> None:
+    """Else one would fail under the last success's sun, or see a wall where none is."""
     action = """
-    async ({ board, stand }) => {
-      const isThere = () => board.querySelector(".board-joy") !== null;
+    async ({ board, stand, argument }) => {
+      const isThere = () => board.querySelector(`.board-${argument}`) !== null;
       stand(48);
-      board.celebrate(48);
+      if (argument === "joy") board.celebrate(48);
+      else board.bump(1);
       stand(48, { numbers: true });
       const before = isThere();
       stand(0);
       return [before, isThere()];
     }
     """
-    assert on_a_board(page, action) == [True, False]
+    assert on_a_board(page, action, argument=mark) == [True, False]
 
 
 def test_a_cursor_marks_a_square_and_goes_with_the_world(page: Page) -> None:

@@ -16,8 +16,8 @@ export class Effects {
   #note = make("span", "board-float");
   #bump = make("div", "board-bump");
   #joy = makeJoy();
-  /** @type {number | null} */
-  #joyAt = null;
+  /** Marks that belong to who stands there, and where. @type {Map<Element, number>} */
+  #besides = new Map();
   #cursor = make("div", "board-cursor");
   #frame = make("div", "board-frame");
   /** @type {WeakMap<Element, Animation>} */
@@ -49,13 +49,14 @@ export class Effects {
     this.#bump.style.setProperty("--down", String(down));
     this.#bump.style.setProperty("--right", String(right));
     this.#bump.dataset.lies = down === 0 ? "upright" : "flat";
+    this.#besides.set(this.#bump, state);
     this.#put(this.#bump, world, state);
     this.#play(this.#bump, BUMP_MS, [{ opacity: 1 }, { opacity: 1, offset: 0.6 }, { opacity: 0 }]);
   }
 
   /** Rays around a square, once; with reduced motion they stand still. @param {World} world @param {number} state */
   celebrate(world, state) {
-    this.#joyAt = state;
+    this.#besides.set(this.#joy, state);
     this.#put(this.#joy, world, state);
     const grow = (/** @type {number} */ scale) => `translate(-50%, -50%) scale(${prefersStill() ? 1 : scale})`;
     this.#play(this.#joy, JOY_MS, [
@@ -66,11 +67,13 @@ export class Effects {
     ]);
   }
 
-  /** Joy belongs to who stands there: it ends when the agent is elsewhere. @param {number | undefined} state */
+  /** A bump and joy belong to who stands there: they end when the agent is elsewhere. @param {number | undefined} state */
   follow(state) {
-    if (this.#joyAt === null || this.#joyAt === state) return;
-    this.#joyAt = null;
-    this.#joy.remove();
+    for (const [mark, place] of this.#besides) {
+      if (place === state) continue;
+      this.#besides.delete(mark);
+      mark.remove();
+    }
   }
 
   /** @param {World} world @param {number | null} state */
