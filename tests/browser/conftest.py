@@ -115,6 +115,23 @@ def phone(browser: Browser, base_url: str) -> Iterator[Page]:
     context.close()
 
 
+@pytest.fixture(scope="module")
+def home(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveServer]:
+    """A server that these tests may stop; the port and the database stay."""
+    live = LiveServer(tmp_path_factory.mktemp("home"))
+    live.start()
+    yield live
+    live.stop()
+
+
+@pytest.fixture
+def away(browser: Browser, home: LiveServer) -> Iterator[BrowserContext]:
+    """A new visitor of `home`, not watched."""
+    context = browser.new_context(base_url=home.address)
+    yield context
+    context.close()
+
+
 @pytest.fixture(scope="session")
 def screenshots(pytestconfig: pytest.Config) -> Path | None:
     """Where screenshots go: docs/screenshots, if asked for by --screenshots."""
