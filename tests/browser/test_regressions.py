@@ -187,3 +187,35 @@ def test_on_a_phone(browser: Browser, base_url: str, gesture: str) -> None:
             cards.nth(1).focus()
             expect(cards.nth(0).locator(".agent")).to_have_count(0)
     context.close()
+
+
+def test_after_a_click_by_mouse_enter_plays_again(page: Page) -> None:
+    page.goto("/?seed=5")
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("g")
+    expect(page.locator("#now")).to_have_attribute("data-shows", "result")
+    page.locator("#numbers").click()
+    page.locator('[data-act="discard"]').click()
+    page.keyboard.press("Enter")
+    expect(page.locator("#now")).to_have_attribute("data-shows", "playing")
+    expect(page.locator('[data-act="restore"]')).to_be_visible()
+    expect(page.locator("#numbers")).to_have_attribute("aria-pressed", "true")
+
+
+def test_trying_again_keeps_the_attempt_that_was_under_way(page: Page) -> None:
+    page.goto("/?seed=5")
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("g")
+    page.keyboard.press("Enter")
+    for _ in range(3):
+        page.keyboard.press("ArrowDown")
+    page.locator('[data-act="replay"]').click()
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("t")
+    expect(page.locator("#left")).to_contain_text("after 3 steps")
+    page.keyboard.press("ArrowDown")
+    expect(page.locator("#left")).to_be_hidden()
+    page.keyboard.press("g")
+    page.locator('[data-command="takeUp"]').click()
+    expect(page.locator("#n-steps")).to_have_text("3")

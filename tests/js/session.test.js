@@ -102,6 +102,19 @@ test("trying again from a step copies what came before and cannot undo it", () =
   assert.deepEqual(session.attempt.stepMs, [parent.stepMs[0], 300]);
 });
 
+test("trying again from a step sets the attempt under way aside, and tells only of what was thrown away", () => {
+  const session = makeSession();
+  walk(session, [RIGHT, DOWN]);
+  session.giveUp();
+  const parent = session.attempt;
+  session.begin(2000);
+  walk(session, [DOWN], { from: 2100 });
+  session.begin(3000);
+  walk(session, [RIGHT], { from: 3100 });
+  session.beginFrom(parent, 1, 4000);
+  assert.deepEqual(session.record(4100, CLIENT).abandoned, [{ n_steps: 1, elapsed_ms: 1000 }]);
+});
+
 test("an attempt that was left goes on where it stood, its closed time left out", () => {
   const before = makeSession();
   walk(before, [RIGHT, DOWN]);

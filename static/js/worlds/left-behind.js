@@ -60,6 +60,13 @@ export class LeftBehind {
     this.show();
   }
 
+  /** The attempt being played makes room for another, and is offered again. @param {number} when */
+  setAside(when) {
+    if (this.#isIdle) return;
+    this.keep(when);
+    this.#drafts.unshift(this.#session.draft(when));
+  }
+
   /** @param {string} id */
   drop(id) {
     void this.#store.then((store) => store.drop(id));

@@ -157,22 +157,19 @@ class PlayPage {
   }
 
   #begin() {
-    this.#leaveAttempt();
+    // What is unfinished is thrown away, as asked.
+    if (!this.#session.isOver) this.#leftBehind.drop(this.#session.attempt.id);
     this.#session.begin(performance.now());
     this.#showBeginning("A new attempt.");
   }
 
   /** Try again from where another attempt stood. @param {Entry} entry @param {number} at */
   #beginFrom(entry, at) {
-    this.#leaveAttempt();
-    this.#session.beginFrom(entry, at, performance.now());
+    const now = performance.now();
+    this.#leftBehind.setAside(now);
+    this.#session.beginFrom(entry, at, now);
     this.#showBeginning(`A new attempt, from step ${at} on.`);
     this.#hint.show(`A new attempt, from step ${at} on. Restart goes back to the start.`);
-  }
-
-  /** The attempt on the board makes room for another: what is unfinished of it is thrown away. */
-  #leaveAttempt() {
-    if (!this.#session.isOver) this.#leftBehind.drop(this.#session.attempt.id);
   }
 
   /** @param {string} words */
@@ -300,6 +297,7 @@ class PlayPage {
     const { signal } = this.#life;
     byId("play").addEventListener("click", (event) => this.#onClick(event), { signal });
     byId("numbers").addEventListener("click", () => this.#toggleNumbers(), { signal });
+    document.addEventListener("click", (event) => this.#afterClick(event), { signal });
     this.#board.addEventListener("board:numbers", (event) => {
       this.#session.note("numbers", performance.now(), Number(/** @type {CustomEvent} */ (event).detail.shown));
     });
@@ -335,6 +333,13 @@ class PlayPage {
     const isGone = button.disabled || !button.checkVisibility({ visibilityProperty: true });
     const isFocusLost = document.activeElement === button || document.activeElement === document.body;
     if (isGone && isFocusLost) this.#board.focus({ preventScroll: true });
+  }
+
+  /** After a click by mouse Enter means "again" again, not the same button once more. @param {MouseEvent} event */
+  #afterClick(event) {
+    const isByMouse = event instanceof PointerEvent && event.pointerType === "mouse";
+    const button = event.target instanceof Element ? event.target.closest("button") : null;
+    if (isByMouse && button && !button.closest("dialog, .menu")) this.#board.focus({ preventScroll: true });
   }
 
   async #takeUp() {

@@ -111,7 +111,8 @@ export class PlaySession {
 
   /** Try again from where another attempt stood after `k` steps. @param {Parameters<typeof branch>[1]} parent @param {number} k @param {number} when */
   beginFrom(parent, k, when) {
-    const abandoned = this.#abandoned(when);
+    // What was under way is set aside, not thrown away: it does not count among the abandoned.
+    const { abandoned } = this.isOver ? { abandoned: [] } : this.#recorder.notes(when);
     this.#attempt = branch(this.#world, parent, k, this.#newId());
     this.#start(when, { abandoned });
     this.#recorder.fit(this.#attempt.actions.length);
