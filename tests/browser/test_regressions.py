@@ -1,5 +1,6 @@
 """Faults that people met on the pages; each test failed before its fault was mended."""
 
+import re
 import uuid
 
 import pytest
@@ -219,3 +220,13 @@ def test_trying_again_keeps_the_attempt_that_was_under_way(page: Page) -> None:
     page.keyboard.press("g")
     page.locator('[data-command="takeUp"]').click()
     expect(page.locator("#n-steps")).to_have_text("3")
+
+
+def test_a_world_that_somebody_else_stored_gets_its_address_too(page: Page, browser: Browser, base_url: str) -> None:
+    stranger = browser.new_context()
+    walk.ContextClient(stranger.new_page(), base_url).post("/worlds", {"seed": 40})
+    stranger.close()
+    page.goto("/?seed=40")
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("g")
+    expect(page).to_have_url(re.compile(r"/worlds/[0-9a-f-]{36}$"))

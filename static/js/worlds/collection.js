@@ -126,9 +126,9 @@ export class Collection {
 
   /** @param {string} worldId */
   #becomeSaved(worldId) {
-    if (this.#isSaved) return;
     this.#isSaved = true;
-    history.replaceState(null, "", `/worlds/${worldId}`);
+    // Somebody else may have stored this world before.
+    if (location.pathname === "/") history.replaceState(null, "", `/worlds/${worldId}`);
   }
 
   /** @param {News} news */
