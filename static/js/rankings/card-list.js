@@ -2,7 +2,7 @@
 
 import Sortable from "sortablejs";
 import { number, plural, signed } from "#js/lib/format.js";
-import { flat, isTiedAbove, move, weights } from "#js/rankings/order.js";
+import { flat, isInTie, weights } from "#js/rankings/order.js";
 
 /** @typedef {import("#js/rankings/order.js").Order} Order */
 /** @typedef {"success" | "failure"} Outcome */
@@ -52,14 +52,14 @@ export class CardList {
     ids.forEach((id, i) => {
       this.#describe(id, i, ids.length);
     });
-    this.#showWeights(order);
+    this.showWeights(order);
   }
 
   /** @param {string} id @param {number} i @param {number} n */
   #describe(id, i, n) {
     const card = this.#cards.get(id);
     if (!card) return;
-    const isTied = isTiedAbove(this.#order, id);
+    const isTied = isInTie(this.#order, id);
     card.dataset.position = String(i + 1);
     card.dataset.tied = String(isTied);
     find(card, ".card-place").textContent = isTied ? "=" : `${this.#placeOf(id)}.`;
@@ -87,7 +87,7 @@ export class CardList {
   }
 
   /** @param {Order} order */
-  #showWeights(order) {
+  showWeights(order) {
     const theta = weights(order);
     const largest = Math.max(...theta.values());
     for (const [id, weight] of theta) {
@@ -116,9 +116,6 @@ export class CardList {
       ghostClass: "card--ghost",
       fallbackClass: "card--flying",
       onStart: ({ item }) => fillFlying(item),
-      onChange: ({ item, newDraggableIndex }) => {
-        this.#showWeights(move(this.#order, item.dataset.demonstrationId ?? "", newDraggableIndex ?? 0));
-      },
       onEnd: ({ item, newDraggableIndex }) => this.place(item, this.outcome, newDraggableIndex ?? 0),
     });
   }

@@ -6,12 +6,13 @@ import { announce } from "#js/lib/announce.js";
  * @typedef {object} Hands
  * @property {(card: HTMLElement, position: number) => void} place     0-based, among the cards of its list
  * @property {(card: HTMLElement) => void} tie
- * @property {() => unknown} mark       remember where things stand …
- * @property {(mark: any) => void} back … and go back there
+ * @property {(card: HTMLElement) => void} lift
+ * @property {() => void} drop
+ * @property {() => void} back   to where it was lifted
  */
 
 export class CardKeys {
-  /** @type {{card: HTMLElement, mark: unknown} | null} */
+  /** @type {{card: HTMLElement} | null} */
   #lifted = null;
   #hands;
 
@@ -48,7 +49,8 @@ export class CardKeys {
 
   /** @param {HTMLElement} card */
   #lift(card) {
-    this.#lifted = { card, mark: this.#hands.mark() };
+    this.#lifted = { card };
+    this.#hands.lift(card);
     card.dataset.lifted = "true";
     announce(`Lifted: ${card.getAttribute("aria-label")}. Arrows move it, Space puts it down, Escape puts it back.`);
   }
@@ -56,13 +58,14 @@ export class CardKeys {
   /** @param {HTMLElement} card */
   #drop(card) {
     this.#release();
+    this.#hands.drop();
     announce(`Put down: ${card.getAttribute("aria-label")}.`);
   }
 
   #cancel() {
     const lifted = this.#lifted;
     this.#release();
-    this.#hands.back(lifted?.mark);
+    this.#hands.back();
     lifted?.card.focus();
     announce(`Put back: ${lifted?.card.getAttribute("aria-label")}.`);
   }

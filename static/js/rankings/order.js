@@ -1,43 +1,78 @@
 /**
- * An order of attempts: groups of ids from first to last, the most weight first (the best success, the worst failure).
+ * An order of attempts: groups of ids from top to bottom, the most weight first (the best success, the worst failure).
  * A group of several is a tie. Orders are values; every function returns a new one.
+ *
+ * A card changes its place in one way only, `place`: taken out, it is put among the others, alone before a group or into
+ * one. A drag, a key and a button each come to such a place, so that whoever reads the log has one thing to understand.
  */
 
 /** @typedef {readonly (readonly string[])[]} Order */
+
+/** Where a card lands among the others: alone before others[group] (at their number: last), or tied with that group. @typedef {{group: number, joins: boolean}} Place */
 
 /** @param {Order} order @returns {string[]} */
 export function flat(order) {
   return order.flat();
 }
 
-/** Put a card at a place among all others, counted from 0. Between two cards of one tie it joins the tie, else it stands alone. @param {Order} order @param {string} id @param {number} position @returns {Order} */
-export function move(order, id, position) {
-  const others = order.map((group) => group.filter((other) => other !== id)).filter((group) => group.length > 0);
-  let start = 0;
-  for (const [i, group] of others.entries()) {
-    const inside = position - start;
-    if (inside <= 0) return [...others.slice(0, i), [id], ...others.slice(i)];
-    if (inside < group.length) {
-      return others.with(i, [...group.slice(0, inside), id, ...group.slice(inside)]);
-    }
-    start += group.length;
-  }
-  return [...others, [id]];
+/** @param {Order} order @param {string} id @returns {Order} */
+export function without(order, id) {
+  return order.map((group) => group.filter((other) => other !== id)).filter((group) => group.length > 0);
 }
 
-/** True when the card shares its place with the one above. @param {Order} order @param {string} id */
-export function isTiedAbove(order, id) {
-  return order.some((group) => group.indexOf(id) > 0);
+/** @param {Order} order @param {string} id @param {Place} where @returns {Order} */
+export function place(order, id, { group, joins }) {
+  const others = without(order, id);
+  if (joins) return others.with(group, [...(others[group] ?? []), id]);
+  return others.toSpliced(group, 0, [id]);
 }
 
-/** Tie a card (and what is tied to it) with the one above, or part it from it again. @param {Order} order @param {string} id @returns {Order} */
+/** @param {Order} order @param {string} id @param {string} other @returns {Order} */
+export function swap(order, id, other) {
+  const instead = new Map([
+    [id, other],
+    [other, id],
+  ]);
+  return order.map((group) => group.map((one) => instead.get(one) ?? one));
+}
+
+/** Past so many groups, up (below 0) or down; out of a tie the first step stands alone beside it. Null where there is nowhere to go. @param {Order} order @param {string} id @param {number} by @returns {Place | null} */
+export function step(order, id, by) {
+  const at = groupOf(order, id);
+  const isTied = isInTie(order, id);
+  const last = without(order, id).length;
+  // Taken out of a tie, the rest of it stands at `at`; alone, the next group does.
+  const to = by < 0 ? at + by + (isTied ? 1 : 0) : at + by;
+  const group = Math.min(last, Math.max(0, to));
+  return group === at && !isTied ? null : { group, joins: false };
+}
+
+/** Tied with the group above; out of its tie if it is in one, alone below it. Null at the top. @param {Order} order @param {string} id @returns {Place | null} */
 export function toggleTie(order, id) {
-  const i = order.findIndex((group) => group.includes(id));
-  const group = order[i] ?? [];
-  const at = group.indexOf(id);
-  if (at > 0) return [...order.slice(0, i), group.slice(0, at), group.slice(at), ...order.slice(i + 1)];
-  if (i <= 0) return order;
-  return [...order.slice(0, i - 1), [...(order[i - 1] ?? []), ...group], ...order.slice(i + 1)];
+  const at = groupOf(order, id);
+  if (isInTie(order, id)) return { group: at + 1, joins: false };
+  return at <= 0 ? null : { group: at - 1, joins: true };
+}
+
+/** @param {Order} order @param {string} id */
+export function groupOf(order, id) {
+  return order.findIndex((group) => group.includes(id));
+}
+
+/** @param {Order} order @param {string} id */
+export function isInTie(order, id) {
+  return (order[groupOf(order, id)]?.length ?? 0) > 1;
+}
+
+/** Places as people count them, 1 at the top; a tie shares its first. @param {Order} order @returns {Map<string, number>} */
+export function displayRanks(order) {
+  /** @type {Map<string, number>} */
+  const ranks = new Map();
+  for (const group of order) {
+    const rank = ranks.size + 1;
+    for (const id of group) ranks.set(id, rank);
+  }
+  return ranks;
 }
 
 /** The weight θ of each card: 2i / (N (N + 1)) with i = N for the first; a tie shares the mean. @param {Order} order @returns {Map<string, number>} */
@@ -68,40 +103,19 @@ export function sortByScore(order, totals, outcome) {
   return groups;
 }
 
-/** An older order brought up to the cards there are now: gone ones left out, new ones last. @param {Order} order @param {readonly string[]} ids @returns {Order} */
-export function reconcile(order, ids) {
-  const kept = order.map((group) => group.filter((id) => ids.includes(id))).filter((group) => group.length > 0);
-  const known = new Set(flat(kept));
-  return [...kept, ...ids.filter((id) => !known.has(id)).map((id) => [id])];
+/** Gone cards left out, new ones last, each alone. @param {Order} order @param {readonly string[]} added @param {readonly string[]} removed @returns {Order} */
+export function reconcile(order, added, removed) {
+  const gone = new Set(removed);
+  const kept = order.map((group) => group.filter((id) => !gone.has(id))).filter((group) => group.length > 0);
+  return [...kept, ...added.map((id) => [id])];
+}
+
+/** Whether both hold the same cards, each once. @param {Order} a @param {Order} b */
+export function holdsTheSame(a, b) {
+  return isSame([flat(a).sort()], [flat(b).sort()]) && b.every((group) => group.length > 0);
 }
 
 /** @param {Order} a @param {Order} b */
 export function isSame(a, b) {
   return JSON.stringify(a) === JSON.stringify(b);
-}
-
-/** What was, is, and was taken back. @template T @typedef {{past: readonly T[], present: T, future: readonly T[]}} History */
-
-/** @template T @param {T} present @returns {History<T>} */
-export function begin(present) {
-  return { past: [], present, future: [] };
-}
-
-/** @template T @param {History<T>} history @param {T} next @returns {History<T>} */
-export function record({ past, present }, next) {
-  return { past: [...past, present], present: next, future: [] };
-}
-
-/** @template T @param {History<T>} history @returns {History<T>} */
-export function undo(history) {
-  const last = history.past.at(-1);
-  if (last === undefined) return history;
-  return { past: history.past.slice(0, -1), present: last, future: [history.present, ...history.future] };
-}
-
-/** @template T @param {History<T>} history @returns {History<T>} */
-export function redo(history) {
-  const [next, ...future] = history.future;
-  if (next === undefined) return history;
-  return { past: [...history.past, history.present], present: next, future };
 }
