@@ -6,12 +6,16 @@ import secrets
 import tempfile
 from functools import cached_property
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal, TypeAlias, get_args
 
 from pydantic import Field, SecretStr, field_validator
-from pydantic_settings import BaseSettings, SettingsConfigDict
+from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 DEFAULT_DATABASE_URL = "sqlite:///data/irlfr.sqlite3"
+
+Way: TypeAlias = Literal["lists", "pairwise", "magnitude", "segments"]
+WAYS: tuple[Way, ...] = get_args(Way)
+"""How a person can say what their order is."""
 
 
 class Settings(BaseSettings):
@@ -43,6 +47,13 @@ class Settings(BaseSettings):
     hold_to_move: bool = Field(
         default=False, description="A key that is held goes on moving; otherwise each press is one step."
     )
+    show_agreement: bool = Field(
+        default=True, description="Participants see, once they have confirmed an order, how it agrees with the totals."
+    )
+    rank_by: Annotated[tuple[Way, ...], NoDecode] = Field(
+        default=WAYS,
+        description="How attempts may be put in order, `pairwise` or `lists,pairwise`; the first is shown first.",
+    )
     allow_missing_assets: bool = Field(
         default=False, description="Start without the browser's third-party packages (for tests of the API)."
     )
@@ -54,6 +65,19 @@ class Settings(BaseSettings):
             message = "must be an SQLite file: sqlite:///relative/path or sqlite:////absolute/path"
             raise ValueError(message)
         return url
+
+    @field_validator("rank_by", mode="before")
+    @classmethod
+    def _split(cls, told: object) -> object:
+        return [one.strip() for one in told.split(",")] if isinstance(told, str) else told
+
+    @field_validator("rank_by")
+    @classmethod
+    def _names_each_once(cls, ways: tuple[Way, ...]) -> tuple[Way, ...]:
+        if not ways or len(set(ways)) < len(ways):
+            message = f"must name at least one of {', '.join(WAYS)}, and each at most once"
+            raise ValueError(message)
+        return ways
 
     @field_validator("secret_key")
     @classmethod

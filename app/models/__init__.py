@@ -4,6 +4,7 @@ from app.models.base import Base
 from app.models.demonstration import Demonstration
 from app.models.ranking import Ranking
 from app.models.run import RUN_STATUSES, Run, RunCheckpoint, RunEvent, RunResult, Worker
+from app.models.sitting import RankingEvent, Sitting
 from app.models.visitor import Visitor
 from app.models.world import World
 
@@ -12,10 +13,12 @@ __all__ = [
     "Base",
     "Demonstration",
     "Ranking",
+    "RankingEvent",
     "Run",
     "RunCheckpoint",
     "RunEvent",
     "RunResult",
+    "Sitting",
     "Visitor",
     "Worker",
     "World",
