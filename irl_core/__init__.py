@@ -3,6 +3,7 @@
 What this module exports is the public interface; the docstrings are its reference.
 """
 
+from irl_core.agreement import Agreement, agreement_of
 from irl_core.comparison import Comparison, Entry, compare
 from irl_core.errors import (
     DivergentPartition,
@@ -51,12 +52,13 @@ from irl_core.playing import simulate, slip_direction
 from irl_core.trajectories import demonstration_of
 from irl_core.types import Demonstration, Ranking, World
 from irl_core.warm import warm_up
-from irl_core.weights import feature_counts, rank_weights, uniform_weights
+from irl_core.weights import display_ranks, feature_counts, paper_index, rank_weights, uniform_weights
 
 __all__ = [
     "DEFAULT_LEARNERS",
     "GENERATOR_VERSION",
     "LEARNERS",
+    "Agreement",
     "BatchInferred",
     "Comparison",
     "Demonstration",
@@ -93,8 +95,10 @@ __all__ = [
     "SparseMdp",
     "World",
     "WorldSection",
+    "agreement_of",
     "compare",
     "demonstration_of",
+    "display_ranks",
     "draw_playable_world",
     "expected_return",
     "expected_visits",
@@ -109,6 +113,7 @@ __all__ = [
     "learn",
     "optimal_plan",
     "optimum",
+    "paper_index",
     "rank_weights",
     "read_demonstration_file",
     "rollouts",

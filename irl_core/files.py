@@ -7,11 +7,12 @@ one world):
     {"kind": "demonstration", "world_id": "w", "id": "d", "actions": [1, 2, …], "ending": "goal", …}
     {"kind": "ranking", "world_id": "w", "outcome": "success", "order": [["d"], ["e", "f"]], …}
 
-Lines may come in any order; of two rankings of one outcome the later holds, as a later version does. Every
-demonstration is played again, with slips by its `slip_seeds` (pairs of a seed and the step from which it decides; its
-id if there are none), and what the line claims of it (states, rewards, total, outcome, ending) must be what happened.
-A demonstration with `"discarded": true` is read, kept and left out of learning. Fields that are not known are kept and
-written again; kinds that are not known are refused.
+Lines may come in any order; of two rankings of one outcome the later holds, as a later version does. A ranking we
+write says besides, for programs elsewhere, what follows from its order: `display_rank` and `paper_index` by id
+(weights.py). Every demonstration is played again, with slips by its `slip_seeds` (pairs of a seed and the step from
+which it decides; its id if there are none), and what the line claims of it (states, rewards, total, outcome, ending)
+must be what happened. A demonstration with `"discarded": true` is read, kept and left out of learning. Fields that are
+not known are kept and written again; kinds that are not known are refused.
 """
 
 import json
@@ -25,6 +26,7 @@ from irl_core.checks import Refused, finite, identifier, shown
 from irl_core.errors import InvalidFile, InvalidRanking, IrlError
 from irl_core.playing import simulate
 from irl_core.types import Demonstration, DemonstrationOutcome, Ranking, World, check_demonstrations, check_world
+from irl_core.weights import display_ranks, paper_index
 
 MAX_LINES: Final = 100_000
 MAX_LINE_LENGTH: Final = 1_000_000
@@ -116,9 +118,18 @@ def write_demonstration_file(
     for ranking in rankings:
         if not isinstance(ranking, Ranking):
             raise InvalidRanking(f"rankings must be Rankings; here is {shown(ranking)}.", field="rankings")
-        order = [list(group) for group in ranking.groups]
-        records.append({"kind": "ranking", **link, "outcome": ranking.outcome, "order": order})
+        records.append({"kind": "ranking", **link, **ranking_fields(ranking)})
     return _lines(records)
+
+
+def ranking_fields(ranking: Ranking) -> dict[str, Any]:
+    """What the line of a ranking says of it: the order, and each place as people and as the paper count it."""
+    return {
+        "outcome": ranking.outcome,
+        "order": [list(group) for group in ranking.groups],
+        "display_rank": display_ranks(ranking.groups),
+        "paper_index": paper_index(ranking.groups),
+    }
 
 
 class _Reader:

@@ -6,8 +6,11 @@ order statistics has mean i / (N + 1); its share of the sum is
     θ_i = 2 i / (N (N + 1)),   i = 1 … N,   Σ θ_i = 1,
 
 with i = N for the best success and for the *worst* failure. Those that tie share the mean of their θ. Unranked
-demonstrations weigh 1 / N. Feature counts (Eqs. 3, 7, 8) are sums over time, not divided by length, so that with
-Σ θ = 1 weighted and unweighted ones are on one scale:
+demonstrations weigh 1 / N. People count from the other end: the display rank is 1 at the top of either list, and those
+that tie all have the first of their places (1, 2, 2, 4). Place p from the top has the index i = N + 1 − p; those that
+tie share the mean of their indices, so m of them at display rank r have i = N + 1 − r − (m − 1) / 2. Feature counts
+(Eqs. 3, 7, 8) are sums over time, not divided by length, so that with Σ θ = 1 weighted and unweighted ones are on one
+scale:
 
     μ̃_s = Σ_i θ_i · (how often demonstration i was in s, its start included, its goal once).
 """
@@ -26,15 +29,27 @@ from irl_core.types import Demonstration, World, check_demonstrations, check_gro
 
 def rank_weights(groups: Iterable[Iterable[str]]) -> dict[str, float]:
     """θ of each id from groups in display order: the first group weighs most; a group of several is a tie."""
+    indices = paper_index(groups)
+    n = len(indices)
+    return {id_: 2.0 * index / (n * (n + 1)) for id_, index in indices.items()}
+
+
+def paper_index(groups: Iterable[Iterable[str]]) -> dict[str, float]:
+    """The paper's index i of each id: N for the group on top, 1 at the bottom, ties share the mean (4, 2.5, 2.5, 1)."""
     checked = check_groups(groups)
     n = sum(len(group) for group in checked)
-    weights: dict[str, float] = {}
-    rank = n
+    indices: dict[str, float] = {}
     for group in checked:
-        mean_rank = rank - (len(group) - 1) / 2
-        weights |= dict.fromkeys(group, 2.0 * mean_rank / (n * (n + 1)))
-        rank -= len(group)
-    return weights
+        indices |= dict.fromkeys(group, n - len(indices) - (len(group) - 1) / 2)
+    return indices
+
+
+def display_ranks(groups: Iterable[Iterable[str]]) -> dict[str, int]:
+    """The rank people see of each id: 1 for the group on top, ties share the first of their places (1, 2, 2, 4)."""
+    ranks: dict[str, int] = {}
+    for group in check_groups(groups):
+        ranks |= dict.fromkeys(group, len(ranks) + 1)
+    return ranks
 
 
 def uniform_weights(ids: Iterable[str]) -> dict[str, float]:

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from irl_core import (
     InvalidFile,
     LearningProblem,
+    Ranking,
     Settings,
     generate_world,
     learn,
@@ -49,6 +50,24 @@ def test_what_is_written_is_read_again_and_learned_from_alike(tmp_path):
     assert '"step_ms": [120.5]' in text
     again = LearningProblem.build(read.world, read.demonstrations, read.rankings, Settings(iterations=10), problem.seed)
     assert learn("irlfr", again).to_json() == learn("irlfr", problem).to_json()
+
+
+def test_a_ranking_says_each_place_as_people_and_as_the_paper_count_it():
+    world = generate_world(3)
+    played = [simulate(world, [1], attempt_id=name) for name in ("a", "b", "c", "d")]
+    text = write_demonstration_file(world, played, [Ranking("failure", (("a",), ("b", "c"), ("d",)))])
+    told = json.loads(text.splitlines()[-1])
+    assert told["order"] == [["a"], ["b", "c"], ["d"]]
+    assert told["display_rank"] == {"a": 1, "b": 2, "c": 2, "d": 4}
+    assert told["paper_index"] == {"a": 4.0, "b": 2.5, "c": 2.5, "d": 1.0}
+    assert read_demonstration_file(text.splitlines()).to_text() == text
+
+
+def test_of_a_ranking_that_is_read_the_order_holds():
+    told = RANKING | {"display_rank": {"good": 7}, "paper_index": "none", "version": 3}
+    read = read_demonstration_file(lines(WORLD, GOOD, told))
+    assert read.rankings == (Ranking("success", (("good",),)),)
+    assert json.loads(read.to_text().splitlines()[-1]) == told
 
 
 def test_slips_are_those_of_the_demonstrations_id():
