@@ -1,6 +1,6 @@
 """A world in the query of an address, where a person reads and edits it.
 
-    rows=7&cols=9&seed=5&walls=3-5,9&start=1&goals=48,6&painted=12-14:-3.5,20:-1&step_limit=60
+    rows=7&cols=9&seed=5&walls=3-5,9&start=1&goals=48,6&painted=12-14:-3.5,20:-1&step_limit=60&rank_by=pairwise
 
 `3-5` are all squares from 3 to 5, `12-14:-3.5` paints each of them. static/js/worlds/query.js writes the same;
 tests/core/world_queries.json holds both to one table. Reading never raises: what could not be read is said field by
@@ -15,6 +15,7 @@ from typing import Any, Final
 
 from starlette.datastructures import QueryParams
 
+from app.config import WAYS
 from app.worlds import schemas
 from app.worlds.schemas import WorldIn
 
@@ -147,6 +148,12 @@ def _reward(text: str) -> float:
     return float(text) + 0.0
 
 
+def _way(text: str) -> str:
+    if text not in WAYS:
+        raise _Unreadable(f"must be {', '.join(WAYS[:-1])} or {WAYS[-1]}")
+    return text
+
+
 def _parts(text: str) -> Iterator[str]:
     return (part for part in map(str.strip, text.split(",")) if part)
 
@@ -176,6 +183,7 @@ _READERS: Final[Mapping[str, Callable[[str], Any]]] = {
     "painted": _painted,
     "step_limit": _whole(schemas.STEP_LIMIT),
     "time_limit_s": _whole(schemas.TIME_LIMIT_S),
+    "rank_by": _way,
 }
 """Every field of WorldIn, in the order in which an address has them."""
 
@@ -183,6 +191,8 @@ _READERS: Final[Mapping[str, Callable[[str], Any]]] = {
 def _write(name: str, value: Any) -> str:  # noqa: ANN401 - any field of WorldIn
     if name == "painted":
         return ",".join(f"{_span(run)}:{_number(pays)}" for run, pays in _runs(value))
+    if isinstance(value, str):
+        return value
     if isinstance(value, list):
         return ",".join(_span(run) for run, _ in _runs((square, None) for square in value))
     return _number(value)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
+from app.config import Way
 from app.worlds.schemas import WorldIn
 from irl_core import GENERATOR_VERSION, World, draw_playable_world, generate_world
 from irl_core.grid import default_horizon
@@ -28,6 +29,11 @@ class StoredWorld:
     spec: Mapping[str, Any]
 
     @property
+    def rank_by(self) -> Way | None:
+        """The one way in which attempts are put in order here, if somebody chose one."""
+        return self.spec.get("rank_by")
+
+    @property
     def smallest_body(self) -> dict[str, Any]:
         """What POST /worlds must be told to make this world again."""
         told = {name: value for name, value in self.spec.items() if name != "generator"}
@@ -35,23 +41,23 @@ class StoredWorld:
 
     def to_json(self) -> dict[str, Any]:
         """Show the world as the API has it."""
-        return {"id": self.id, **self.world.to_json(), "spec": self.smallest_body}
+        return {"id": self.id, **self.world.to_json(), "rank_by": self.rank_by, "spec": self.smallest_body}
 
 
 def generate(parameters: WorldIn) -> StoredWorld:
     """Generate the world of a seed; without one, draw until a success is possible."""
-    numbers = parameters.model_dump(exclude={"seed"})
+    numbers = parameters.model_dump(exclude={"seed", "rank_by"})
     numbers["walls"] = sorted(set(parameters.walls))
     numbers["painted"] = dict(parameters.painted)
     if parameters.seed is None:
         world = draw_playable_world(secrets.randbelow(2**32), **numbers)
     else:
         world = generate_world(parameters.seed, **numbers)
-    spec = spec_of(world, painted=numbers["painted"])
+    spec = spec_of(world, painted=numbers["painted"], rank_by=parameters.rank_by)
     return StoredWorld(id_of(spec), world, spec)
 
 
-def spec_of(world: World, *, painted: Mapping[int, float]) -> dict[str, Any]:
+def spec_of(world: World, *, painted: Mapping[int, float], rank_by: Way | None) -> dict[str, Any]:
     """Say what a world was generated from; another generator gives other worlds other ids, old ids keep theirs.
 
     The fields after the walls came later. They are there only where they differ from their defaults, so that a world
@@ -68,6 +74,7 @@ def spec_of(world: World, *, painted: Mapping[int, float]) -> dict[str, Any]:
         **_start_and_goals(world),
         **_paint(world, painted),
         **_limits(world),
+        **({} if rank_by is None else {"rank_by": rank_by}),
     }
 
 

@@ -5,6 +5,8 @@ from typing import Annotated, Any, Final
 from pydantic import AfterValidator, BaseModel, ConfigDict, FailFast, Field
 from pydantic_core import PydanticCustomError
 
+from app.config import Way
+
 SIDE: Final = (2, 100)
 SEED: Final = (0, 2**53 - 1)
 """Up to the largest whole number that JavaScript and Python write alike."""
@@ -89,6 +91,10 @@ class WorldIn(BaseModel):
     time_limit_s: Annotated[int, _whole(TIME_LIMIT_S)] | None = Field(
         default=None, description="The most seconds of an attempt, 5 to 3600. Default: none."
     )
+    rank_by: Way | None = Field(
+        default=None,
+        description="How attempts are ordered here: lists, pairwise, magnitude or segments. Default: as people like.",
+    )
 
 
 class WorldOut(BaseModel):
@@ -108,5 +114,6 @@ class WorldOut(BaseModel):
     slip: float = Field(description="The probability that a step goes in one of the three other directions.")
     horizon: int = Field(description="The most steps an attempt may have, and the horizon of planning.")
     time_limit_s: int | None = Field(description="The most seconds an attempt may last, or null.")
+    rank_by: Way | None = Field(description="The one way to put attempts in order here, or null: as people like.")
     success_possible: bool = Field(description="Whether any attempt can reach the goal with a total of 0 or more.")
     spec: dict[str, Any] = Field(description="The smallest body of POST /worlds that makes this world again.")

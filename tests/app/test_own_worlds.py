@@ -5,7 +5,7 @@ import pytest
 from app.db import Database
 from app.learning import worker
 from irl_core import LEARNERS, expected_return, read_demonstration_file
-from tests.factories import attempt, make_demonstration, make_ranking, make_world, post_demonstration
+from tests.factories import PLAYABLE_SEED, attempt, make_demonstration, make_ranking, make_world, post_demonstration
 
 UP, RIGHT, DOWN, LEFT = range(4)
 OWN = {
@@ -58,6 +58,35 @@ def test_every_learner_learns_there_and_is_compared(client, run):
     rollouts = client.get(f"/api/v1/runs/{run['id']}/rollouts").json()
     assert {one["states"][0] for shown in rollouts.values() for one in shown} == {14}
     assert all(one["states"][-1] == 24 for one in rollouts["optimal"])
+
+
+@pytest.mark.parametrize("way", ["lists", "pairwise", "magnitude", "segments"])
+def test_a_world_can_say_how_its_attempts_are_ordered(client, way):
+    world = make_world(client, rank_by=way)
+    assert (world["rank_by"], world["spec"]) == (way, {"seed": PLAYABLE_SEED, "rank_by": way})
+    assert client.get(f"/api/v1/worlds/{world['id']}").json() == world
+    assert make_world(client, **world["spec"]) == world
+    assert client.get(f"/api/v1/worlds/preview?seed={PLAYABLE_SEED}&rank_by={way}").json() == world
+    plain = make_world(client)
+    assert plain["id"] != world["id"]
+    assert plain["rewards"] == world["rewards"]
+
+
+def test_a_world_keeps_the_id_it_had_before_orders_could_be_given_in_several_ways(client):
+    for parameters in ({}, {"rank_by": None}):
+        world = make_world(client, **parameters)
+        assert world["id"] == "e7937d2d-b4d5-5d72-9015-45b0b6cfe473"
+        assert world["rank_by"] is None
+        assert world["spec"] == {"seed": PLAYABLE_SEED}
+    assert make_world(client, rank_by="pairwise")["id"] == "47df6d3e-53ab-560d-84c0-5e2657e704da"
+
+
+@pytest.mark.parametrize("way", ["Lists", "alphabet", "", 1, True, ["lists"], {}])
+def test_a_way_that_is_none_is_refused_in_words(client, way):
+    response = client.post("/api/v1/worlds", json={"rank_by": way})
+    assert response.status_code == 422
+    assert "rank_by" in response.json()["error"]["fields"]
+    assert "'lists', 'pairwise', 'magnitude' or 'segments'" in response.json()["error"]["message"]
 
 
 def test_every_page_shows_it(client, run):

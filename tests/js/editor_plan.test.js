@@ -129,6 +129,15 @@ test("clearing takes everything painted and leaves the numbers", () => {
   assert.deepEqual(specOf(cleared(plan)), { rows: 4, seed: 5, slip: 0.1, time_limit_s: 60 });
 });
 
+test("how attempts are ordered stays through clearing, and a way there is none of is nobody's choice", () => {
+  assert.deepEqual(specOf(cleared(planOf({ seed: 5, rank_by: "pairwise", walls: [3] }))), {
+    seed: 5,
+    rank_by: "pairwise",
+  });
+  assert.deepEqual(specOf(planOf({ seed: 5, rank_by: /** @type {any} */ ("alphabet") })), { seed: 5 });
+  assert.deepEqual(specOf(planOf({ seed: 5, rank_by: null })), { seed: 5 });
+});
+
 test("a brush can be picked up from any square", () => {
   const plan = planOf({ seed: 5, walls: [3], goals: [48, 6], painted: [[6, 30]] });
   assert.deepEqual(brushAt(plan, 3, 0, WALL), WALL);

@@ -1,5 +1,7 @@
 /** Plain data of the board: what a world, a view and an attempt are. No DOM here. */
 
+/** @typedef {"lists" | "pairwise" | "magnitude" | "segments"} Way   how a person says what their order is */
+
 /**
  * @typedef {object} World
  * @property {string} id
@@ -16,6 +18,7 @@
  * @property {number} slip
  * @property {number} horizon        steps
  * @property {number | null} time_limit_s  seconds
+ * @property {Way | null} [rank_by]  the one way to put attempts in order here; null: as people like
  * @property {WorldSpec} [spec]      what makes this world again
  * @property {boolean} [success_possible]
  */
@@ -34,6 +37,7 @@
  * @property {[square: number, reward: number][]} [painted]
  * @property {number | null} [step_limit]
  * @property {number | null} [time_limit_s]  seconds
+ * @property {Way | null} [rank_by]
  */
 
 /**

@@ -14,6 +14,7 @@
  * @property {[number, number][]} [painted]      [square, reward]
  * @property {number | null} [step_limit]
  * @property {number | null} [time_limit_s]
+ * @property {import("#js/board/state.js").Way | null} [rank_by]
  */
 
 /** @typedef {{first: number, last: number, reward?: number}} Run   neighbouring squares of one reward */
@@ -28,7 +29,7 @@ export function toQuery(spec) {
     .join("&");
 }
 
-/** Digits, signs, dots, commas and colons alone, so that nothing needs to be escaped. @param {Spec} spec @returns {Record<string, string>} */
+/** Digits, signs, dots, commas, colons and plain words alone, so that nothing needs to be escaped. @param {Spec} spec @returns {Record<string, string>} */
 function partsOf(spec) {
   // One side alone would mean a square world.
   const isSized = spec.rows !== undefined || spec.cols !== undefined;
@@ -44,10 +45,11 @@ function partsOf(spec) {
     painted: paintedText(spec.painted ?? []),
     step_limit: textOf(spec.step_limit),
     time_limit_s: textOf(spec.time_limit_s),
+    rank_by: textOf(spec.rank_by),
   };
 }
 
-/** @param {number | null | undefined} value */
+/** @param {number | string | null | undefined} value */
 function textOf(value) {
   return value === null || value === undefined ? "" : String(value);
 }

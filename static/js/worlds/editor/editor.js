@@ -19,6 +19,7 @@ import { Report } from "#js/worlds/editor/report.js";
 import { GONE, refusalOf, shortestWay, squareSentence, TOO_LARGE, verdictOf } from "#js/worlds/editor/sentences.js";
 import { Sharing } from "#js/worlds/editor/sharing.js";
 import { ToolBox } from "#js/worlds/editor/toolbox.js";
+import { WayField } from "#js/worlds/editor/way-field.js";
 import { toQuery } from "#js/worlds/query.js";
 
 /** @typedef {import("#js/worlds/editor/plan.js").Plan} Plan */
@@ -74,6 +75,7 @@ class EditorPage {
     end: () => this.settle(),
     refuse: announce,
   });
+  #way = new WayField((rankBy) => this.change({ ...this.plan, rankBy }));
   #preview = new Preview(api.get, {
     answer: (world) => this.#learn(world),
     refuse: (problem) => this.#tell(problem),
@@ -87,7 +89,7 @@ class EditorPage {
       this.#address.show(specOf(this.plan), this.#query);
       this.#learn(this.#data.world);
     }
-    for (const part of [this.#tools, this.#fields, this.#easel, this.#sharing]) part.listen(signal);
+    for (const part of [this.#tools, this.#fields, this.#way, this.#easel, this.#sharing]) part.listen(signal);
     this.#presets.listen((preset) => this.change(planOf(preset.spec)), signal);
     this.#listenToButtons(signal);
     document.addEventListener("keydown", (event) => this.#onKey(event), { signal });
@@ -178,6 +180,7 @@ class EditorPage {
     byId("editor").style.setProperty("--world-ratio", String(plan.cols / plan.rows));
     this.#tools.fit(plan);
     this.#fields.show(Object.fromEntries(Object.entries(NUMBERS).map(([name, key]) => [name, plan[key]])));
+    this.#way.show(plan.rankBy);
     this.#presets.show(query);
     const nSteps = shortestWay(world);
     this.#report.showFacts(plan, nSteps);
@@ -217,6 +220,7 @@ class EditorPage {
   /** @param {Record<string, string>} fields */
   #tellFields(fields) {
     this.#fields.tell(fields);
+    this.#way.tell(fields.rank_by ?? "");
     this.#marksProblem = MARKS.map((name) => fields[name] ?? "").find(Boolean) ?? "";
     this.#showMarksProblem();
   }

@@ -6,6 +6,7 @@
 import { DEFAULT_SIDE } from "#js/worlds/query.js";
 
 /** @typedef {import("#js/worlds/query.js").Spec} Spec */
+/** @typedef {import("#js/board/state.js").Way} Way */
 
 export const SMALLEST_SIDE = 2;
 export const LARGEST_SIDE = 100;
@@ -14,6 +15,8 @@ export const MOST_SLIP = 0.9;
 export const LOWEST_REWARD = -7;
 export const HIGHEST_PAY = 200;
 export const TIME_LIMITS_S = /** @type {const} */ ([5, 3600]);
+/** @type {readonly Way[]} */
+export const WAYS = ["lists", "pairwise", "magnitude", "segments"];
 const DEFAULT_RED_PROBABILITY = 0.3;
 const SHEET = LARGEST_SIDE;
 
@@ -26,6 +29,7 @@ const SHEET = LARGEST_SIDE;
  * @property {number} slip
  * @property {number | null} stepLimit           null: as many as the server finds usual
  * @property {number | null} timeLimitS          null: none
+ * @property {Way | null} rankBy                 null: attempts are put in order as people like
  * @property {number} start                      place
  * @property {ReadonlyMap<number, number | null>} goals   place → pay, null: rows + cols; empty: the last square alone
  * @property {ReadonlySet<number>} walls         places
@@ -57,6 +61,7 @@ export function planOf(spec) {
     slip: within(spec.slip, 0, MOST_SLIP) ?? 0,
     stepLimit: spec.step_limit ?? null,
     timeLimitS: spec.time_limit_s ?? null,
+    rankBy: WAYS.find((way) => way === spec.rank_by) ?? null,
     start: isStart ? placeAt(size, spec.start ?? 0) : 0,
     goals: tidyGoals(size, new Map(goals.map((square) => [placeAt(size, square), painted.get(square) ?? null]))),
     walls: new Set(squares(spec.walls).map((square) => placeAt(size, square))),
@@ -84,6 +89,7 @@ export function specOf(plan) {
     painted: [...painted, ...paid].sort(([a], [b]) => a - b),
     step_limit: plan.stepLimit,
     time_limit_s: plan.timeLimitS,
+    rank_by: plan.rankBy,
   });
 }
 
