@@ -4,15 +4,14 @@ The file is made a few attempts at a time and sent as it is made: neither the si
 on to memory or to the database.
 """
 
-import csv
-import io
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from app.db import Database
 from app.demonstrations import queries
 from app.demonstrations.convert import directions_taken
+from app.kit.table import Cell, csv_text
 from app.models import Demonstration
 from app.worlds.convert import StoredWorld
 
@@ -28,21 +27,18 @@ STEP_COLUMNS = (
 CLIENT_COLUMNS = ATTEMPT_COLUMNS[ATTEMPT_COLUMNS.index("pixel_ratio") :]
 
 AT_A_TIME = 8
-STARTS_A_FORMULA = ("=", "+", "-", "@", "\t", "\r")
-
-Cell = str | int | float | bool | None
 
 
 def csv_chunks(database: Database, visitor_id: str | None, world: StoredWorld) -> Iterator[str]:
     """Write the table piece by piece; the header comes even where there is no row."""
-    yield _written([ATTEMPT_COLUMNS + STEP_COLUMNS])
+    yield csv_text([ATTEMPT_COLUMNS + STEP_COLUMNS])
     colours = [colour for row in world.world.colours for colour in row]
     n_before, last = 0, 0
     while True:
         with database.read() as session:
             attempts = queries.next_with_records(session, visitor_id, world.id, after=last, limit=AT_A_TIME)
         for n, attempt in enumerate(attempts, start=n_before + 1):
-            yield _written(_rows(world, colours, attempt, n))
+            yield csv_text(_rows(world, colours, attempt, n))
         if len(attempts) < AT_A_TIME:
             return
         n_before, last = n_before + len(attempts), attempts[-1].number
@@ -84,18 +80,3 @@ def _attempt_cells(attempt: Demonstration, n: int) -> list[Cell]:
 def _at(values: list[Any], t: int) -> Any:  # noqa: ANN401 - whatever was measured
     """Return what was measured of step t, None where nothing was."""
     return values[t] if t < len(values) else None
-
-
-def _written(rows: Iterable[Iterable[Cell]]) -> str:
-    text = io.StringIO()
-    csv.writer(text).writerows([_cell(value) for value in row] for row in rows)
-    return text.getvalue()
-
-
-def _cell(value: Cell) -> Cell:
-    """Write a value as statistics programs read it; no text may begin a formula in a spreadsheet."""
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, str) and value.startswith(STARTS_A_FORMULA):
-        return f"'{value}"
-    return value
