@@ -75,7 +75,7 @@ class DemonstrationFile:
 
     def to_text(self) -> str:
         """The file again, fields that were not known included."""
-        return _lines(self.records)
+        return "".join(map(_line, self.records))
 
     @property
     def _only_section(self) -> WorldSection:
@@ -112,24 +112,40 @@ def write_demonstration_file(
     """The text of a file of one world. `more` holds further fields by demonstration id (step_ms, created_at, …)."""
     check_world(world)
     played = check_demonstrations(demonstrations)
-    link = {} if world_id is None else {"world_id": world_id}
-    records: list[_Record] = [{"kind": "world", **({} if world_id is None else {"id": world_id}), **world.to_json()}]
-    records += [{"kind": "demonstration", **link, **(more or {}).get(one.id, {}), **one.to_json()} for one in played]
+    lines = [world_line(world, world_id=world_id)]
+    lines += [demonstration_line(one, world_id=world_id, more=(more or {}).get(one.id)) for one in played]
     for ranking in rankings:
         if not isinstance(ranking, Ranking):
             raise InvalidRanking(f"rankings must be Rankings; here is {shown(ranking)}.", field="rankings")
-        records.append({"kind": "ranking", **link, **ranking_fields(ranking)})
-    return _lines(records)
+        lines.append(ranking_line(ranking, world_id=world_id))
+    return "".join(lines)
 
 
-def ranking_fields(ranking: Ranking) -> dict[str, Any]:
-    """What the line of a ranking says of it: the order, and each place as people and as the paper count it."""
-    return {
+def world_line(world: World, *, world_id: str | None = None) -> str:
+    """The line of a world."""
+    return _line({"kind": "world", **({} if world_id is None else {"id": world_id}), **world.to_json()})
+
+
+def demonstration_line(
+    demonstration: Demonstration, *, world_id: str | None = None, more: Mapping[str, Any] | None = None
+) -> str:
+    """The line of a demonstration, with further fields."""
+    return _line({"kind": "demonstration", **_link(world_id), **(more or {}), **demonstration.to_json()})
+
+
+def ranking_line(ranking: Ranking, *, world_id: str | None = None, more: Mapping[str, Any] | None = None) -> str:
+    """The line of a ranking, each place as people and as the paper count it, with further fields."""
+    told = {
         "outcome": ranking.outcome,
         "order": [list(group) for group in ranking.groups],
         "display_rank": display_ranks(ranking.groups),
         "paper_index": paper_index(ranking.groups),
     }
+    return _line({"kind": "ranking", **_link(world_id), **told, **(more or {})})
+
+
+def _link(world_id: str | None) -> _Record:
+    return {} if world_id is None else {"world_id": world_id}
 
 
 class _Reader:
@@ -311,5 +327,5 @@ def _refuse(reason: str, line: int, field: str | None) -> NoReturn:
     raise InvalidFile(f"{reason}.", line=line, field=field)
 
 
-def _lines(records: Iterable[Mapping[str, Any]]) -> str:
-    return "".join(json.dumps(record, allow_nan=False) + "\n" for record in records)
+def _line(record: Mapping[str, Any]) -> str:
+    return json.dumps(record, allow_nan=False) + "\n"

@@ -64,3 +64,9 @@ def demonstration_from_row(row: DemonstrationRow) -> Demonstration:
         ending=cast("Ending", row.ending),
         slip_seeds=tuple((seed, first) for seed, first in row.slip_seeds),
     )
+
+
+def beside_the_play(row: DemonstrationRow) -> dict[str, Any]:
+    """What a file says of an attempt more than irl_core knows: its times, and where it comes from."""
+    parent = {} if row.parent_id is None else {"parent_id": row.parent_id, "parent_step": row.parent_step}
+    return {"step_ms": row.step_ms, "created_at": row.created_at.isoformat(), **parent}

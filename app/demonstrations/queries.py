@@ -56,6 +56,14 @@ def _with_records(
     return session.scalars(asked).all()
 
 
+def next_in_world(
+    session: Session, visitor_id: str | None, world_id: str, *, after: int, limit: int
+) -> Sequence[Demonstration]:
+    """List those that arrived after number `after`, at most `limit` of them, without their records."""
+    theirs = (Demonstration.visitor_id == visitor_id, Demonstration.world_id == world_id, Demonstration.number > after)
+    return session.scalars(select(Demonstration).where(*theirs).order_by(Demonstration.number).limit(limit)).all()
+
+
 def kept_in_world(session: Session, visitor_id: str | None, world_id: str) -> Sequence[Demonstration]:
     """List a visitor's demonstrations in a world that are not discarded, oldest first."""
     return [row for row in all_in_world(session, visitor_id, world_id) if row.discarded_at is None]
