@@ -6,6 +6,7 @@
     ├── Unprocessable       422  the request is well-formed but cannot be done; `fields` says where
     │   └── ImpossibleWorld      an address asks for a world that cannot be; `mend_at` is where it can be mended
     ├── Forbidden           403  a request another site made in the visitor's name
+    ├── NotShown            403  this study keeps it from the participants
     ├── TooLarge            413  the body is over the limit
     ├── NotJson             415  the body is not declared as JSON
     └── Unavailable         503  the database is busy or full; trying again later does no harm
@@ -67,6 +68,13 @@ class Forbidden(AppError):
 
     status = 403
     code = "cross_site"
+
+
+class NotShown(AppError):
+    """It is theirs, but whoever runs the study keeps it from them."""
+
+    status = 403
+    code = "not_shown"
 
 
 class TooLarge(AppError):
