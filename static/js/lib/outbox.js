@@ -1,23 +1,23 @@
 /**
- * Attempts on their way to the server. Each is written to the browser's own storage before the first request and leaves
+ * Attempts and orders on their way to the server. Each is written to the browser's own storage before the first request and leaves
  * it when the server has acknowledged it; until then it is sent again: with growing pauses, when the server asked for
  * it, when the network comes back, when the page is seen again, at the next visit. Ids are made in the browser, so
  * sending twice does no harm; one tab sends at a time, so that strangers in two tabs become one visitor. What the server
- * refuses for good (409, 422, …) is kept and said plainly; what the storage refuses lives in memory until it is sent.
+ * refuses for good (409, 422, …) is kept and said plainly (a log and a wish are told and over); what the storage refuses lives in memory until it is sent.
  */
 
 import { ApiError } from "#js/lib/api.js";
 import { LastStraw } from "#js/lib/last-straw.js";
 import { inTurn } from "#js/lib/locks.js";
-import { isRefused, isSound, parcelSender, storedParcels, wishId } from "#js/lib/parcels.js";
-import { browserStorage } from "#js/lib/storage.js";
+import { isOfRankings, isRefused, isSound, parcelSender, storedParcels, wishId } from "#js/lib/parcels.js";
+import { browserStorage, rankingStorage } from "#js/lib/storage.js";
 
 const FIRST_PAUSE_MS = 1000;
 const LONGEST_PAUSE_MS = 60_000;
 const DAMAGED = "What this browser had kept of it is damaged, so it cannot be sent.";
 
 /** @typedef {import("#js/lib/parcels.js").Parcel} Parcel */
-/** @typedef {import("#js/lib/parcels.js").AttemptParcel} AttemptParcel */
+/** @template {Parcel} P @typedef {P extends Parcel ? Omit<P, "at" | "refusal" | "seq"> : never} Unsent */
 /** @typedef {import("#js/lib/parcels.js").Store} Store */
 
 /**
@@ -29,28 +29,35 @@ const DAMAGED = "What this browser had kept of it is damaged, so it cannot be se
  * @property {boolean} [isStored]
  * @property {number} [status]
  * @property {number | null} [retryAfterMs]
- * @property {any} [demonstration]  as the server has it
+ * @property {any} [answer]  what the server made of it: a demonstration, a ranking, how much of a log it has
  * @property {boolean} [isElsewhere]  it happened in another tab
  */
 
 /** The outbox of this page, which hears from those of other tabs. @param {(news: News) => void} report */
 export function openOutbox(report) {
-  const channel = typeof BroadcastChannel === "undefined" ? null : new BroadcastChannel("irlfr");
+  const channels = typeof BroadcastChannel === "undefined" ? null : openChannels();
   const outbox = new Outbox({
-    store: storedParcels(browserStorage),
+    store: storedParcels({ attempts: browserStorage, rankings: rankingStorage }),
     lastStraw: new LastStraw("parcel"),
     inTurn: (work) => inTurn("irlfr:outbox", browserStorage, work),
     report: (news) => {
       report(news);
-      channel?.postMessage(news);
+      channels?.[isOfRankings(news.parcel) ? "rankings" : "attempts"].postMessage(news);
     },
   });
   window.addEventListener("pagehide", () => outbox.rescue());
-  channel?.addEventListener("message", ({ data }) => {
-    outbox.hear(data);
-    report({ ...data, isElsewhere: true });
-  });
+  for (const channel of Object.values(channels ?? {})) {
+    channel.addEventListener("message", ({ data }) => {
+      outbox.hear(data);
+      report({ ...data, isElsewhere: true });
+    });
+  }
   return outbox;
+}
+
+/** A tab that still shows version 0.3 listens to the first, and would take all it hears for an attempt. */
+function openChannels() {
+  return { attempts: new BroadcastChannel("irlfr"), rankings: new BroadcastChannel("irlfr:rankings") };
 }
 
 export class Outbox {
@@ -107,7 +114,7 @@ export class Outbox {
     return this.#unstored.size;
   }
 
-  /** Keep a finished attempt, then try to send it. Resolves when it is kept. @param {Omit<AttemptParcel, "at" | "refusal" | "seq">} parcel */
+  /** Keep a finished attempt, a log or an order, then try to send it. Resolves when it is kept. @param {Unsent<Parcel>} parcel */
   add(parcel) {
     return this.#keep({ ...parcel, at: Date.now(), refusal: null });
   }
@@ -216,13 +223,13 @@ export class Outbox {
     if (!parcel) return false;
     if (!isSound(parcel)) return this.#refuse(parcel, DAMAGED);
     try {
-      const demonstration = await this.#send(parcel);
+      const answer = await this.#send(parcel);
       await this.#remove(parcel);
       this.#pause = FIRST_PAUSE_MS;
-      this.#report({ kind: "saved", parcel, demonstration });
+      this.#report({ kind: "saved", parcel, answer });
       return true;
     } catch (error) {
-      if (error instanceof ApiError && !error.isTemporary) return this.#refuse(parcel, error.message, error.status);
+      if (error instanceof ApiError && !error.isTemporary) return this.#refuse(parcel, error.message, error);
       return this.#comeBackLater(parcel, error);
     }
   }
@@ -234,11 +241,11 @@ export class Outbox {
     return waiting.find((parcel) => !ids.has(foundationOf(parcel)));
   }
 
-  /** @param {Parcel} parcel @param {string} refusal @param {number} [status] */
-  async #refuse(parcel, refusal, status) {
-    const refused = { ...parcel, refusal, status };
-    // A wish that cannot be granted is told, and over; an attempt is kept.
-    if (parcel.kind === "discard") await this.#remove(parcel);
+  /** @param {Parcel} parcel @param {string} refusal @param {Partial<ApiError>} [why] */
+  async #refuse(parcel, refusal, { status, code, fields } = {}) {
+    const refused = { ...parcel, refusal, status, code, fields };
+    // A wish that cannot be granted is told, and over; so is a log, which its sitting still has. The others are kept.
+    if (parcel.kind === "discard" || parcel.kind === "log") await this.#remove(parcel);
     else await this.#keepRefused(refused);
     this.#report({ kind: "refused", parcel: refused, status });
     return true;
@@ -284,13 +291,14 @@ export class Outbox {
   }
 }
 
-/** @param {Parcel} parcel */
+/** Attempts and orders are numbered apart. @param {Parcel} parcel */
 function keyOf(parcel) {
-  return parcel.seq ?? parcel;
+  return parcel.seq === undefined ? parcel : `${isOfRankings(parcel) ? "order" : "attempt"} ${parcel.seq}`;
 }
 
 /** The id of the parcel that has to arrive before this one; empty if it rests on none. @param {Parcel} parcel */
 function foundationOf(parcel) {
+  if (isOfRankings(parcel)) return "";
   const id = parcel.kind === "discard" ? parcel.attemptId : parcel.body?.parent_id;
   return id === undefined || id === parcel.id ? "" : id;
 }

@@ -1,27 +1,50 @@
 /**
- * The browser's own storage (IndexedDB): what has not reached the server yet. Three stores:
+ * The browser's own storage (IndexedDB): what has not reached the server yet, in two databases.
+ *
+ * `irlfr-attempts`:
  * - `outbox`: finished attempts and wishes on their way, keyed by `seq`, a number that only ever grows and is drawn
  *   where it is stored, so that their order never depends on a clock;
  * - `unfinished`: attempts being played, by id;
  * - `turns`: who of the tabs may send, where the browser has no locks (lib/locks.js).
  *
- * A database of its own rather than a second version of "irlfr" (version 0.2): an upgrade has to wait until the last tab
- * with the old page is closed, and what is played meanwhile would be kept nowhere. What still waits in the old one is
- * taken over at every opening; both may send the same attempt, which the server stores once.
+ * `irlfr-rankings`:
+ * - `outbox`: logs and confirmed orders on their way, alike;
+ * - `sittings`: work on orders, by id; `events`: what was done in them, by sitting and number.
+ *
+ * A database of its own for each, never a second version of one that a page in use may have open: `irlfr-attempts` came
+ * after "irlfr" (version 0.2) because an upgrade waits until the last tab with the old page is closed, and what is played
+ * meanwhile would be kept nowhere. `irlfr-rankings` came after it because a tab that still shows version 0.3 reads the
+ * same outbox: it would take a confirmed order for a damaged attempt and refuse it. So it never sees one.
+ *
+ * What still waits in "irlfr" is taken over at every opening; both may send the same attempt, which the server stores once.
  */
 
-const NAME = "irlfr-attempts";
-const VERSION = 1;
+const ATTEMPTS = { name: "irlfr-attempts", version: 1, make: makeAttemptStores, prepare: takeOver };
+const RANKINGS = { name: "irlfr-rankings", version: 1, make: makeRankingStores };
 const OLD_NAME = "irlfr";
 /** Opening may wait for ever: for another tab's upgrade, for a disk that hangs. */
 const OPEN_WITHIN_MS = 3000;
 const TAKE_OVER_WITHIN_MS = 1500;
 
-/** @typedef {"outbox" | "unfinished" | "turns"} StoreName */
+/** @typedef {"outbox" | "unfinished" | "turns" | "sittings" | "events"} StoreName */
+
+/**
+ * @typedef {object} Plan   of a database
+ * @property {string} name
+ * @property {number} version
+ * @property {(database: IDBDatabase) => void} make
+ * @property {(database: IDBDatabase) => Promise<void>} [prepare]   at every opening
+ */
 
 export class Storage {
+  #plan;
   /** @type {Promise<IDBDatabase> | null} */
   #opening = null;
+
+  /** @param {Plan} plan */
+  constructor(plan) {
+    this.#plan = plan;
+  }
 
   /**
    * One transaction; resolves with what `work` gives once it is stored. Rejects when the storage is closed to us or full.
@@ -61,7 +84,7 @@ export class Storage {
     const forget = () => {
       this.#opening = null;
     };
-    this.#opening ??= within(OPEN_WITHIN_MS, openAttempts(forget)).catch((error) => {
+    this.#opening ??= within(OPEN_WITHIN_MS, openDatabase(this.#plan, forget)).catch((error) => {
       forget();
       throw error;
     });
@@ -69,8 +92,9 @@ export class Storage {
   }
 }
 
-/** The one of this page; it opens when it is first used. */
-export const browserStorage = new Storage();
+/** Those of this page; each opens when it is first used. */
+export const browserStorage = new Storage(ATTEMPTS);
+export const rankingStorage = new Storage(RANKINGS);
 
 /** The result of one request inside a transaction. @template T @param {IDBRequest<T>} request @returns {Promise<T>} */
 export function ask(request) {
@@ -80,26 +104,38 @@ export function ask(request) {
   });
 }
 
-/** @param {() => void} onGone */
-async function openAttempts(onGone) {
-  const database = await open(NAME, VERSION, makeStores);
+/** @param {Plan} plan @param {() => void} onGone */
+async function openDatabase({ name, version, make, prepare = async () => {} }, onGone) {
+  const database = await open(name, version, make);
   database.onversionchange = () => {
     database.close();
     onGone();
   };
   database.onclose = onGone;
   // What cannot be taken over now stays where it is until the next time.
-  await within(TAKE_OVER_WITHIN_MS, takeOver(database)).catch(() => {});
+  await within(TAKE_OVER_WITHIN_MS, prepare(database)).catch(() => {});
   return database;
 }
 
 /** @param {IDBDatabase} database */
-function makeStores(database) {
+function makeAttemptStores(database) {
+  makeOutbox(database);
+  database.createObjectStore("unfinished", { keyPath: "id" });
+  database.createObjectStore("turns", { keyPath: "name" });
+}
+
+/** @param {IDBDatabase} database */
+function makeRankingStores(database) {
+  makeOutbox(database);
+  database.createObjectStore("sittings", { keyPath: "id" });
+  database.createObjectStore("events", { keyPath: ["sitting", "n"] });
+}
+
+/** @param {IDBDatabase} database */
+function makeOutbox(database) {
   database
     .createObjectStore("outbox", { keyPath: "seq", autoIncrement: true })
     .createIndex("id", "id", { unique: true });
-  database.createObjectStore("unfinished", { keyPath: "id" });
-  database.createObjectStore("turns", { keyPath: "name" });
 }
 
 /** Parcels of the database of version 0.2. @param {IDBDatabase} database */

@@ -3,7 +3,7 @@
 import { announce, announceToo } from "#js/lib/announce.js";
 import { byId } from "#js/lib/dom.js";
 import { openOutbox } from "#js/lib/outbox.js";
-import { isRefused } from "#js/lib/parcels.js";
+import { isOfRankings, isRefused } from "#js/lib/parcels.js";
 import { disableLink, enableLink, setStep, showCounts } from "#js/lib/path.js";
 import { AttemptStrip } from "#js/worlds/attempt-strip.js";
 import { bodyOf, entryOfAttempt, entryOfDemonstration, entryOfParcel, fileOf } from "#js/worlds/entries.js";
@@ -95,6 +95,7 @@ export class Collection {
   /** @param {News} news */
   #hear(news) {
     const { parcel, kind } = news;
+    if (isOfRankings(parcel)) return;
     if (this.#isOfThisWorld(parcel)) {
       if (kind === "kept") this.#takeIn(parcel);
       else if (kind === "saved") this.#settle(news);
@@ -107,6 +108,7 @@ export class Collection {
 
   /** A parcel of an earlier visit, or of another tab. @param {Parcel} parcel */
   #takeIn(parcel) {
+    if (isOfRankings(parcel)) return;
     if (!isRefused(parcel)) this.#badge.wait(parcel);
     if (parcel.kind === "discard") {
       const entry = this.entry(parcel.attemptId);
@@ -115,12 +117,12 @@ export class Collection {
   }
 
   /** @param {News} news */
-  #settle({ parcel, demonstration }) {
+  #settle({ parcel, answer }) {
     if (parcel.kind === "discard") return;
-    const { total, world_id: worldId } = demonstration;
+    const { total, world_id: worldId } = answer;
     const entry = this.entry(parcel.id);
     if (entry) Object.assign(entry, { total, sync: "saved", note: null });
-    else this.#entries.push(entryOfDemonstration(demonstration));
+    else this.#entries.push(entryOfDemonstration(answer));
     this.#becomeSaved(worldId);
   }
 
@@ -157,7 +159,7 @@ export class Collection {
   /** @param {Entry} entry @param {number} n */
   async #saveAsFile(entry, n) {
     const parcel = (await this.#outbox.all()).find(({ id }) => id === entry.id);
-    if (!parcel || parcel.kind === "discard") return;
+    if (!parcel || parcel.kind !== undefined) return;
     const link = document.createElement("a");
     link.href = URL.createObjectURL(new Blob([fileOf(this.#world, entry, parcel)], { type: "application/jsonl" }));
     link.download = `attempt-${n}-${entry.id.slice(0, 8)}.jsonl`;
