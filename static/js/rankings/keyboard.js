@@ -1,19 +1,22 @@
-/** The keyboard on the cards: Space lifts and drops, arrows move, Escape puts back, T ties. All of it is announced. */
+/** The keyboard on a focused card: arrows go to the next one, Space lifts it, lifted the same keys move it. */
 
-import { announce } from "#js/lib/announce.js";
+import { letterOf } from "#js/lib/keys.js";
 
-/**
- * @typedef {object} Hands
- * @property {(card: HTMLElement, position: number) => void} place     0-based, among the cards of its list
- * @property {(card: HTMLElement) => void} tie
- * @property {(card: HTMLElement) => void} lift
- * @property {() => void} drop
- * @property {() => void} back   to where it was lifted
- */
+/** @typedef {import("#js/rankings/card.js").Card} Card */
+/** @typedef {import("#js/rankings/hands.js").Hands} Hands */
+
+const PAGE = 5;
+/** How far these keys go: the focus, or the card that is lifted. @type {Record<string, number>} */
+const WAYS = {
+  ArrowUp: -1,
+  ArrowDown: 1,
+  PageUp: -PAGE,
+  PageDown: PAGE,
+  Home: -Number.MAX_SAFE_INTEGER,
+  End: Number.MAX_SAFE_INTEGER,
+};
 
 export class CardKeys {
-  /** @type {{card: HTMLElement} | null} */
-  #lifted = null;
   #hands;
 
   /** @param {Hands} hands */
@@ -24,71 +27,43 @@ export class CardKeys {
   /** @param {HTMLElement} root @param {AbortSignal} signal */
   listen(root, signal) {
     root.addEventListener("keydown", (event) => this.#onKey(event), { signal });
-    root.addEventListener("focusout", () => this.#onLeave(), { signal });
+    root.addEventListener("focusout", (event) => this.#onLeave(event), { signal });
   }
 
   /** @param {KeyboardEvent} event */
   #onKey(event) {
-    const card = event.target instanceof HTMLElement && event.target.matches(".card") ? event.target : null;
-    if (!card || event.ctrlKey || event.metaKey || event.altKey) return;
-    const act = this.#actOf(event.key, card);
+    const target = event.target instanceof HTMLElement ? event.target : null;
+    const card = this.#hands.find(target)?.card;
+    if (!card || event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
+    if (event.key === "Escape") this.#onEscape(card, event);
+    const act = target === card.element ? this.#actOf(card, event) : null;
     if (!act) return;
     event.preventDefault();
-    if (!event.repeat || event.key.startsWith("Arrow")) act();
+    if (!event.repeat || event.key in WAYS) act();
   }
 
-  /** @param {string} key @param {HTMLElement} card @returns {(() => void) | null} */
-  #actOf(key, card) {
-    if (key === " ") return this.#lifted ? () => this.#drop(card) : () => this.#lift(card);
-    if (key === "Escape" && this.#lifted) return () => this.#cancel();
-    if (key === "ArrowUp") return () => this.#go(card, -1);
-    if (key === "ArrowDown") return () => this.#go(card, 1);
-    if (key.toLowerCase() === "t") return () => this.#hands.tie(card);
-    return null;
+  /** @param {Card} card @param {KeyboardEvent} event */
+  #onEscape(card, event) {
+    if (this.#hands.isLifted(card)) this.#hands.putBack(card);
+    else if (!this.#hands.unmark()) return;
+    event.preventDefault();
   }
 
-  /** @param {HTMLElement} card */
-  #lift(card) {
-    this.#lifted = { card };
-    this.#hands.lift(card);
-    card.dataset.lifted = "true";
-    announce(`Lifted: ${card.getAttribute("aria-label")}. Arrows move it, Space puts it down, Escape puts it back.`);
+  /** @param {Card} card @param {KeyboardEvent} event @returns {(() => void) | null} */
+  #actOf(card, event) {
+    const [hands, isLifted, way] = [this.#hands, this.#hands.isLifted(card), WAYS[event.key]];
+    if (way !== undefined) return () => (isLifted ? hands.step(card, way, "key") : hands.goTo(card, way));
+    if (event.key === " ") return () => (isLifted ? hands.drop(card) : hands.lift(card));
+    if (letterOf(event) === "t") return () => hands.tie(card, "key");
+    return letterOf(event) === "c" ? () => hands.compare(card, "key") : null;
   }
 
-  /** @param {HTMLElement} card */
-  #drop(card) {
-    this.#release();
-    this.#hands.drop();
-    announce(`Put down: ${card.getAttribute("aria-label")}.`);
-  }
-
-  #cancel() {
-    const lifted = this.#lifted;
-    this.#release();
-    this.#hands.back();
-    lifted?.card.focus();
-    announce(`Put back: ${lifted?.card.getAttribute("aria-label")}.`);
-  }
-
-  /** @param {HTMLElement} card @param {-1 | 1} by */
-  #go(card, by) {
-    const cards = /** @type {HTMLElement[]} */ ([...(card.parentElement?.children ?? [])]);
-    const to = cards.indexOf(card) + by;
-    if (this.#lifted) {
-      if (to < 0 || to >= cards.length) announce(by < 0 ? "It stands first already." : "It stands last already.");
-      else this.#hands.place(card, to);
-    } else cards[to]?.focus();
-  }
-
-  /** A card that was moved keeps the focus within the same turn; one that truly lost it is put down where it is. */
-  #onLeave() {
+  /** A card that was moved keeps the focus within the same turn; one that truly lost it is put down where it is. @param {FocusEvent} event */
+  #onLeave({ target }) {
+    const card = this.#hands.find(/** @type {Element} */ (target))?.card;
+    if (!card || !this.#hands.isLifted(card)) return;
     queueMicrotask(() => {
-      if (this.#lifted && document.activeElement !== this.#lifted.card) this.#release();
+      if (document.activeElement !== card.element) this.#hands.drop();
     });
-  }
-
-  #release() {
-    if (this.#lifted) delete this.#lifted.card.dataset.lifted;
-    this.#lifted = null;
   }
 }
