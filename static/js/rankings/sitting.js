@@ -5,7 +5,7 @@
  */
 
 import { openOutbox } from "#js/lib/outbox.js";
-import { logId } from "#js/lib/parcels.js";
+import { isOfRankings, logId } from "#js/lib/parcels.js";
 import { uuid } from "#js/lib/uuid.js";
 import * as beginning from "#js/rankings/beginning.js";
 import { Dispatch } from "#js/rankings/dispatch.js";
@@ -50,6 +50,8 @@ export class Sitting {
   #savingListeners = new Set();
   /** @type {Set<(news: ConfirmedElsewhere) => void>} */
   #newsListeners = new Set();
+  /** @type {Set<() => void>} */
+  #arrivalListeners = new Set();
 
   /** @param {{book: Book, state: State, showTotals: boolean}} parts @param {Around} around */
   constructor({ book, state, showTotals }, around) {
@@ -81,7 +83,6 @@ export class Sitting {
     const outbox = openOutbox((news) => sitting?.hear(news));
     await outbox.recover();
     sitting = await Sitting.of(data, { journal: new Journal(), outbox });
-    document.addEventListener("visibilitychange", () => document.visibilityState === "hidden" && sitting?.pause());
     outbox.watch(new AbortController().signal);
     return sitting;
   }
@@ -158,6 +159,7 @@ export class Sitting {
     if (next === null || (next === this.#state && !SILENT.has(change.type))) return false;
     this.#state = next;
     this.#tell(this.#append(change));
+    if (change.type === "hidden") this.pause();
     return true;
   }
 
@@ -176,6 +178,11 @@ export class Sitting {
     this.#newsListeners.add(listener);
   }
 
+  /** Attempts of this world have arrived, or were discarded or restored, after this page was made. @param {() => void} listener */
+  subscribeArrivals(listener) {
+    this.#arrivalListeners.add(listener);
+  }
+
   /**
    * The order as it stands is the person's. Resolves when the server has it, however long that takes; rejects with an
    * ApiError when the server will not. `basedOn`: the version that it is to follow, where the person has seen a newer one
@@ -191,6 +198,9 @@ export class Sitting {
   /** News of the outbox. @param {import("#js/lib/outbox.js").News} news */
   hear(news) {
     this.#dispatch.hear(news);
+    const { kind, parcel } = news;
+    if (kind !== "saved" || isOfRankings(parcel) || parcel.worldId !== this.#book.worldId) return;
+    for (const listener of this.#arrivalListeners) listener();
   }
 
   /** The page may be closed at any moment. */
