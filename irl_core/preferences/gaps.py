@@ -11,10 +11,10 @@ something. Stating the differences of neighbours and adding them up is how MACBE
 Costa and J.-C. Vansnick, "MACBETH: an interactive path towards the construction of cardinal value functions",
 International Transactions in Operational Research 1(4), 1994).
 
-A gap is kept under one attempt of the group above and one of the group below: the first of each, unless what stands there
-is said anew. It counts for two neighbouring groups whenever the one holds the former and the other the latter, so it
-comes back when they are neighbours again, and who joins a tie brings its gaps along; of several that fit, the last of the
-list counts.
+A gap is kept under one attempt of the group above and one of the group below: the first of each, unless what stands
+there is said anew. It counts for two neighbouring groups whenever the one holds the former and the other the latter, so
+it comes back when they are neighbours again, and who joins a tie brings its gaps along; of several that fit, the last
+of the list counts.
 """
 
 from collections.abc import Iterable, Mapping

@@ -7,6 +7,8 @@ import { isTaken, letterOf } from "#js/lib/keys.js";
 import { pageData } from "#js/lib/page-data.js";
 import { Confirmation } from "#js/rankings/confirmation.js";
 import { RankLists } from "#js/rankings/lists.js";
+import { MagnitudePanel } from "#js/rankings/magnitude-panel.js";
+import { SegmentsPanel } from "#js/rankings/segments-panel.js";
 import { Sitting } from "#js/rankings/sitting.js";
 
 /** @typedef {import("#js/rankings/sitting-state.js").Outcome} Outcome */
@@ -29,6 +31,8 @@ class RankPage {
   #sitting;
   #lists;
   #confirmation;
+  #magnitude;
+  #segments;
 
   /** @param {Parts} parts */
   constructor(parts) {
@@ -40,12 +44,16 @@ class RankPage {
     this.#lists = new RankLists({ ...parts, root: this.#root, onWatch, onCompare });
     const onFocus = (/** @type {string} */ id) => this.#lists.focus(id);
     this.#confirmation = new Confirmation({ ...parts, onCompare, onFocus });
+    this.#magnitude = new MagnitudePanel({ ...parts, lists: this.#lists });
+    this.#segments = new SegmentsPanel(parts);
   }
 
   start() {
     const { signal } = this.#life;
     this.#lists.start(signal);
     this.#confirmation.start(signal);
+    this.#magnitude.start();
+    this.#segments.start(signal);
     this.#root.addEventListener("click", (event) => this.#onClick(event), { signal });
     this.#root.addEventListener("change", (event) => this.#onChange(event), { signal });
     document.addEventListener("keydown", (event) => this.#onKey(event), { signal });
