@@ -10,7 +10,7 @@ from sqlalchemy import insert
 from app.kit.clock import now
 from app.models import Run, Visitor
 from tests.conftest import open_client
-from tests.factories import attempt, make_demonstration, make_world
+from tests.factories import attempt, make_demonstration, make_ranking, make_world
 
 RUN_ID = "11111111-2222-4333-8444-555555555555"
 
@@ -32,6 +32,9 @@ EVERYBODY = {
     ("GET", "/api/v1/worlds/{world_id}/demonstrations"): (200, 200, 200),
     ("GET", "/api/v1/worlds/{world_id}/steps.csv"): (200, 200, 200),
     ("GET", "/api/v1/worlds/{world_id}/rankings"): (200, 200, 200),
+    ("GET", "/api/v1/worlds/{world_id}/rankings.csv"): (200, 200, 200),
+    ("GET", "/api/v1/worlds/{world_id}/rankings.jsonl"): (200, 200, 200),
+    ("GET", "/api/v1/worlds/{world_id}/ranking-events.csv"): (200, 200, 200),
     ("GET", "/api/v1/worlds/{world_id}/runs"): (200, 200, 200),
     ("POST", "/api/v1/worlds/{world_id}/runs"): (422, 202, 202),  # each of what they have played themselves
 }
@@ -39,6 +42,7 @@ OWNER_ONLY = {
     ("PUT", "/api/v1/demonstrations/{demonstration_id}/discard"): (404, 200, 404),
     ("DELETE", "/api/v1/demonstrations/{demonstration_id}/discard"): (404, 200, 404),
     ("PUT", "/api/v1/worlds/{world_id}/rankings/{outcome}"): (422, 200, 422),
+    ("GET", "/api/v1/worlds/{world_id}/rankings/{outcome}/agreement"): (404, 200, 404),
     ("GET", "/worlds/{world_id}/compare"): (303, 303, 303),
     ("GET", "/api/v1/runs/{run_id}"): (404, 200, 404),
     ("GET", "/api/v1/runs/{run_id}/events"): (404, 204, 404),
@@ -72,6 +76,7 @@ def test_who_may(client, other_client, method, path):
     world = make_world(client)
     played = make_demonstration(client, world)
     make_demonstration(other_client, world)
+    make_ranking(client, world, "success", [played["id"]])
     store_ended_run(client, world, played)
     url = path.format(world_id=world["id"], demonstration_id=played["id"], run_id=RUN_ID, outcome="success")
     body = body_for(method, path, world, played)

@@ -7,6 +7,7 @@ from urllib.parse import parse_qs, urlsplit
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Locator, Page, expect
 
+from app.config import WAYS
 from tests.browser import walk
 from tests.browser.conftest import watched
 from tests.browser.test_pages import check_axe
@@ -117,6 +118,31 @@ def test_what_is_painted_by_mouse_is_in_the_address_survives_a_reload_and_is_pla
     page.go_back()
     expect(page.locator("#fact-way")).to_have_text("6 steps")
     assert query_of(page) == expected
+
+
+def test_how_attempts_are_ordered_is_chosen_for_everybody(loose_page: Page) -> None:
+    page = loose_page
+    page.goto("/worlds/new?seed=5")
+    field = page.get_by_label("How attempts are ordered")
+    options = field.locator("option").evaluate_all("options => options.map((one) => one.value)")
+    assert options == ["", *WAYS]
+    expect(field).to_have_value("")
+    field.select_option("pair by pair")
+    expect(page).to_have_url(re.compile("seed=5&rank_by=pairwise$"))
+    page.reload()
+    expect(field).to_have_value("pairwise")
+    field.select_option("with sliders")
+    page.locator("#undo").click()
+    expect(field).to_have_value("pairwise")
+    page.locator("#play-link").click()
+    expect(page.locator("#now")).to_be_visible()
+    assert walk.page_data(page)["world"]["rank_by"] == "pairwise"
+    page.goto("/worlds/new?seed=5&rank_by=alphabet")
+    expect(page.locator("#notice")).to_contain_text("rank_by must be lists, pairwise, magnitude or segments.")
+    expect(page.locator("#rank_by-problem")).to_have_text("Choose one of these ways, or leave it to the people.")
+    field.select_option("in two lists")
+    expect(page.locator("#rank_by-problem")).to_be_hidden()
+    expect(page).to_have_url(re.compile("seed=5&rank_by=lists$"))
 
 
 def test_painting_shows_at_once_without_waiting_for_the_server(page: Page) -> None:
