@@ -22,6 +22,7 @@ from app.learning import pages as learning_pages
 from app.learning.dependencies import open_learning
 from app.rankings import api as rankings_api
 from app.rankings import pages as rankings_pages
+from app.rankings.sittings import Sittings
 from app.security import CrossSiteGuard, JsonBodies, SecurityHeaders, UnexpectedErrors
 from app.templating import Pages, find_folder
 from app.visitors import VisitorCookie
@@ -80,6 +81,7 @@ async def lifespan(app: FastAPI) -> AsyncIterator[None]:
     to_thread.current_default_thread_limiter().total_tokens = N_THREADS
     app.state.database = Database(settings)
     app.state.known_worlds = {}
+    app.state.sittings = Sittings(app.state.database)
     try:
         async with open_learning(app, settings, app.state.database):
             yield

@@ -43,7 +43,7 @@ class Abandoned(_Part):
     elapsed_ms: Ms = Field(description="How long it had taken, in milliseconds.")
 
 
-class Client(_Part):
+class Browser(_Part):
     """The browser and the device, by kind."""
 
     agent: Annotated[str, Field(max_length=100, pattern=r"^[^\x00-\x1f\x7f]*$")] = Field(
@@ -63,6 +63,11 @@ class Client(_Part):
     forced_colours: Flag = Field(description="The system forces its own colours.")
     dark: Flag = Field(description="The page was dark.")
     totals_shown: Flag = Field(description="Totals were shown.")
+
+
+class Client(Browser):
+    """The same, with how keys moved."""
+
     hold_to_move: Flag = Field(description="A key that was held went on moving.")
 
 

@@ -6,7 +6,7 @@ from typing import Any
 from sqlalchemy import JSON, CheckConstraint, ForeignKey, String, UniqueConstraint
 from sqlalchemy.orm import Mapped, mapped_column
 
-from app.config import WAYS
+from app.config import WAYS, Way
 from app.models.base import Base
 
 
@@ -28,7 +28,7 @@ class Ranking(Base):
     version: Mapped[int]
     order: Mapped[list[list[str]]] = mapped_column(JSON, comment="groups in display order; a group of several is a tie")
     start_order: Mapped[list[str]] = mapped_column(JSON, comment="the order that was shown first, drawn at random")
-    way: Mapped[str] = mapped_column(
+    way: Mapped[Way] = mapped_column(
         String(9), default="lists", server_default="lists", comment="how the person said it"
     )
     given: Mapped[dict[str, Any] | list[Any] | None] = mapped_column(

@@ -7,15 +7,17 @@ from typing import Any
 from fastapi import APIRouter, Request
 from starlette.responses import Response
 
+from app.config import Settings
 from app.demonstrations.pages import demonstrations_json
 from app.demonstrations.queries import all_in_world
 from app.dependencies import DatabaseFromApp
 from app.models import Demonstration
 from app.pages import PathState, path_state, render
 from app.rankings import convert, queries
-from app.rankings.schemas import Outcome
-from app.rankings.service import start_order
+from app.rankings.content import Outcome
+from app.rankings.log import start_order
 from app.visitors import VisitorOrNone
+from app.worlds.convert import StoredWorld
 from app.worlds.dependencies import WorldFromPath
 
 router = APIRouter(include_in_schema=False)
@@ -54,6 +56,14 @@ def show_rank(request: Request, world: WorldFromPath, database: DatabaseFromApp,
         },
     }
     return render(request, "rankings/rank.html", RankPage(path=path, world=data["world"], data=data))
+
+
+def _options(settings: Settings, world: StoredWorld) -> dict[str, Any]:
+    return {
+        "show_totals": settings.show_totals,
+        "show_agreement": settings.show_agreement,
+        "ways": [world.rank_by] if world.rank_by else settings.rank_by,
+    }
 
 
 def _shuffled_kept(rows: Sequence[Demonstration], visitor_id: str | None, world_id: str, outcome: Outcome) -> list[str]:

@@ -1,9 +1,14 @@
-"""What can be asked about rankings."""
+"""What can be asked about rankings and the sittings in which they came to be."""
 
-from sqlalchemy import select
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sqlalchemy import func, select
 from sqlalchemy.orm import Session
 
-from app.models import Ranking
+from app.models import Demonstration, Ranking, RankingEvent, Sitting
+from app.rankings.content import Outcome
 
 
 def newest(session: Session, visitor_id: str | None, world_id: str) -> dict[str, Ranking]:
@@ -11,3 +16,53 @@ def newest(session: Session, visitor_id: str | None, world_id: str) -> dict[str,
     theirs = (Ranking.visitor_id == visitor_id, Ranking.world_id == world_id)
     rows = session.scalars(select(Ranking).where(*theirs).order_by(Ranking.version))
     return {row.outcome: row for row in rows}
+
+
+def versions(session: Session, visitor_id: str | None, world_id: str, outcome: Outcome) -> Sequence[Ranking]:
+    """List every version of an order that a visitor has confirmed in a world, newest first."""
+    theirs = (Ranking.visitor_id == visitor_id, Ranking.world_id == world_id, Ranking.outcome == outcome)
+    return session.scalars(select(Ranking).where(*theirs).order_by(Ranking.version.desc())).all()
+
+
+def confirmed_in(session: Session, sitting_id: str, outcome: Outcome, n_events: int) -> Ranking | None:
+    """Find the version that so many events of a sitting led to."""
+    same = (Ranking.sitting_id == sitting_id, Ranking.outcome == outcome, Ranking.n_events == n_events)
+    return session.scalar(select(Ranking).where(*same))
+
+
+@dataclass(frozen=True, slots=True)
+class Attempt:
+    """What ranking needs to know of a demonstration: not its steps, which may be many."""
+
+    id: str
+    outcome: str
+    is_kept: bool
+    n_steps: int
+
+
+def attempts(session: Session, visitor_id: str | None, world_id: str) -> dict[str, Attempt]:
+    """Find a visitor's attempts in a world, the discarded ones too, by id."""
+    theirs = (Demonstration.visitor_id == visitor_id, Demonstration.world_id == world_id)
+    asked = (
+        Demonstration.id,
+        Demonstration.outcome,
+        Demonstration.discarded_at.is_(None),
+        func.json_array_length(Demonstration.actions),
+    )
+    return {row[0]: Attempt(*row) for row in session.execute(select(*asked).where(*theirs))}
+
+
+def find_sitting(session: Session, sitting_id: str) -> Sitting | None:
+    """Find a sitting by its id, whosever it is."""
+    return session.get(Sitting, sitting_id)
+
+
+def n_events(session: Session, sitting_id: str) -> int:
+    """Tell how many events of a sitting, which there is, are stored."""
+    return session.scalars(select(Sitting.n_events).where(Sitting.id == sitting_id)).one()
+
+
+def stored_events(session: Session, sitting_id: str, start: int, stop: int) -> list[dict[str, Any]]:
+    """List events start … stop − 1 of a sitting, as they were sent."""
+    within = (RankingEvent.sitting_id == sitting_id, RankingEvent.n >= start, RankingEvent.n < stop)
+    return list(session.scalars(select(RankingEvent.event).where(*within).order_by(RankingEvent.n)))
