@@ -9,9 +9,8 @@ from fastapi.responses import StreamingResponse
 
 from app.dependencies import DatabaseFromApp
 from app.rankings import agreement, convert, event_export, exports, queries, service
-from app.rankings.agreement import AgreementOut
 from app.rankings.content import Outcome
-from app.rankings.schemas import EventsIn, LogOut, RankingIn, RankingOut, RankingsOut
+from app.rankings.schemas import AgreementOut, EventsIn, LogOut, RankingIn, RankingOut, RankingsOut
 from app.rankings.sittings import Sittings, Whose
 from app.visitors import VisitorOrNone
 from app.worlds.convert import StoredWorld

@@ -12,7 +12,7 @@ from typing import Any
 from app.db import Database
 from app.kit.table import Cell, csv_text
 from app.models import RankingEvent, Sitting
-from app.rankings import export_queries, replay
+from app.rankings import queries, replay
 from app.rankings.content import OUTCOMES, Order, Outcome, flat
 from app.rankings.replay import State
 from app.worlds.convert import StoredWorld
@@ -30,7 +30,7 @@ def events_csv(database: Database, visitor_id: str | None, world: StoredWorld) -
     """Write the table piece by piece; the header comes even where there is no row."""
     yield csv_text([EVENT_COLUMNS])
     with database.read() as session:
-        sittings = export_queries.sittings(session, visitor_id, world.id)
+        sittings = queries.sittings_in_world(session, visitor_id, world.id)
     for number, sitting in enumerate(sittings, start=1):
         yield from _sitting(database, sitting, number)
 
@@ -38,13 +38,13 @@ def events_csv(database: Database, visitor_id: str | None, world: StoredWorld) -
 def _sitting(database: Database, sitting: Sitting, number: int) -> Iterator[str]:
     """Go through a log; what stands is carried from one piece to the next."""
     with database.read() as session:
-        versions = export_queries.versions_of(session, sitting.id)
+        versions = queries.versions_by_n_events(session, sitting.id)
     about_it: list[Cell] = [sitting.world_id, number, sitting.id]
     state: State | None = None
     for start in range(0, sitting.n_events, EVENTS_AT_A_TIME):
         stop = min(start + EVENTS_AT_A_TIME, sitting.n_events)
         with database.read() as session:
-            stored = export_queries.events(session, sitting.id, start, stop)
+            stored = queries.events_with_times(session, sitting.id, start, stop)
         rows: list[list[Cell]] = []
         for row in stored:
             before, state = state, replay.begin(row.event) if state is None else replay.apply(state, row.event)

@@ -16,7 +16,7 @@ from app.demonstrations.queries import next_in_world
 from app.kit.table import Cell, csv_text
 from app.models import Demonstration
 from app.models import Ranking as RankingRow
-from app.rankings import convert, export_queries
+from app.rankings import convert, queries
 from app.worlds.convert import StoredWorld
 from irl_core import Ranking, display_ranks, paper_index, rank_weights
 from irl_core.files import demonstration_line, ranking_line, world_line
@@ -71,11 +71,11 @@ def _version_line(row: RankingRow, *, counts: bool) -> str:
 def _versions(database: Database, visitor_id: str | None, world_id: str) -> Iterator[tuple[RankingRow, bool]]:
     """Every version, oldest first, and whether it counts."""
     with database.read() as session:
-        newest = export_queries.newest_ids(session, visitor_id, world_id)
+        newest = queries.newest_ids(session, visitor_id, world_id)
     last, up_to = 0, max(newest, default=0)
     while last < up_to:
         with database.read() as session:
-            rows = export_queries.next_versions(
+            rows = queries.next_versions(
                 session, visitor_id, world_id, after=last, up_to=up_to, limit=VERSIONS_AT_A_TIME
             )
         yield from ((row, row.id in newest) for row in rows)

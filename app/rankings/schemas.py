@@ -125,3 +125,19 @@ class RankingsOut(BaseModel):
 
     success: RankingOut | None
     failure: RankingOut | None
+
+
+class AgreementOut(BaseModel):
+    """How far an order agrees with the true totals."""
+
+    version: int = Field(description="The version compared: the newest.")
+    tau_b: float | None = Field(
+        description="Kendall's τ-b: 1 the same order, 0 none, −1 upside down; null where nothing can be told apart."
+    )
+    n_pairs: int = Field(description="How many pairs there are.")
+    n_agreeing: int = Field(description="Pairs that stand the right way round.")
+    n_swapped: int = Field(description="Pairs that stand the wrong way round.")
+    n_tied: int = Field(description="Pairs tied in the order, or of the same total.")
+    swapped: list[tuple[str, str]] = Field(
+        description="[[above, below], …]: the lower one belongs above; those whose totals differ most come first."
+    )

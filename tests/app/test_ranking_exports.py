@@ -10,11 +10,10 @@ from pathlib import Path
 import pytest
 
 from app.rankings import exports
-from app.rankings.agreement import AgreementOut
 from app.rankings.event_export import EVENT_COLUMNS
 from app.rankings.events import EVENTS, MOST_EVENTS
 from app.rankings.exports import RANKING_COLUMNS
-from app.rankings.schemas import RankingOut
+from app.rankings.schemas import AgreementOut, RankingOut
 from app.worlds.queries import find_world
 from irl_core import LearningProblem, display_ranks, paper_index, rank_weights, read_demonstration_file
 from tests.conftest import open_client
