@@ -44,13 +44,14 @@ export function clockWords(when, now = new Date()) {
  * @property {Outcome[]} differs                      what has yet to be confirmed
  * @property {Outcome[]} onItsWay                     what was sent and is not answered yet
  * @property {Trouble | null} trouble                 why it is not
+ * @property {boolean} lasts                          false where this browser's storage takes nothing
  */
 
 /** The line beside the button. @param {Standing} standing */
-export function stateSentence({ nCards, canOrder, counts, differs, onItsWay, trouble }) {
+export function stateSentence({ nCards, canOrder, counts, differs, onItsWay, trouble, lasts }) {
   if (nCards === 0) return "";
   if (onItsWay.length > 0)
-    return trouble ? waitingSentence(onItsWay, trouble) : `Sending the order of ${yours(onItsWay)} …`;
+    return trouble ? waitingSentence(onItsWay, trouble, lasts) : `Sending the order of ${yours(onItsWay)} …`;
   if (differs.length === 0 && Object.keys(counts).length > 0)
     return `✓ Confirmed: ${countsWords(counts)}. You can still change it and confirm again.`;
   if (!canOrder) return "One attempt alone needs no order. Go on, or play more.";
@@ -67,18 +68,21 @@ export function countsWords(counts) {
   return `${words.join(" and ")} ${words.length === 1 ? "counts" : "count"}`;
 }
 
-/** @param {Outcome[]} outcomes @param {Trouble} trouble */
-function waitingSentence(outcomes, trouble) {
-  const kept = `Your order of ${yours(outcomes)} is kept in this browser and sent by itself`;
-  if (trouble.status === 0) return `The server cannot be reached just now. ${kept}; then it counts.`;
-  if (trouble.retryAfterMs)
-    return `The server is busy and asked for ${secondsWords(trouble.retryAfterMs)}. ${kept} then; from there on it counts.`;
-  if (trouble.status === 500) return `Something went wrong on the server. ${kept}; then it counts.`;
-  return `The server is busy just now. ${kept}; then it counts.`;
+/** @param {Outcome[]} outcomes @param {Trouble} trouble @param {boolean} lasts */
+function waitingSentence(outcomes, trouble, lasts) {
+  const where = lasts ? "kept in this browser and" : "in this page alone, so keep it open: it is";
+  return `${troubleSentence(trouble)} Your order of ${yours(outcomes)} is ${where} sent by itself; then it counts.`;
+}
+
+/** @param {Trouble} trouble */
+function troubleSentence({ status, retryAfterMs }) {
+  if (status === 0) return "The server cannot be reached just now.";
+  if (retryAfterMs) return `The server is busy and asked for ${timeWords(retryAfterMs)}.`;
+  return status === 500 ? "Something went wrong on the server." : "The server is busy just now.";
 }
 
 /** @param {number} ms */
-function secondsWords(ms) {
+function timeWords(ms) {
   const s = Math.max(1, Math.ceil(ms / 1000));
   return s < 120 ? `${s} s` : `${Math.round(s / 60)} min`;
 }
@@ -173,6 +177,11 @@ export function countsNowSentence(outcome, version, other) {
 /** Another tab confirmed the very same. @param {Outcome} outcome @param {number} version */
 export function sameSentence(outcome, version) {
   return `Version ${version} of your ${PLURAL[outcome]}, confirmed in another tab, is this very order: it counts.`;
+}
+
+/** Another tab was faster, while this page was open. @param {Outcome} outcome @param {number} version */
+export function elsewhereSentence(outcome, version) {
+  return `Version ${version} of your ${PLURAL[outcome]} was confirmed in another tab just now, and it counts. This page's order is as you left it; confirm it to choose between the two.`;
 }
 
 export const OTHER_UNSEEN =

@@ -3,18 +3,18 @@
  * page stays; what stands against it is said, with what can be done about it.
  */
 
-import { announce } from "#js/lib/announce.js";
+import { announce, announceToo } from "#js/lib/announce.js";
 import { ApiError } from "#js/lib/api.js";
 import { byId } from "#js/lib/dom.js";
 import { setStep } from "#js/lib/path.js";
 import { AgreementPanel } from "#js/rankings/agreement.js";
-import { confirmedSentence, stateSentence } from "#js/rankings/confirm-words.js";
+import { confirmedSentence, elsewhereSentence, stateSentence } from "#js/rankings/confirm-words.js";
 import { askUntouched } from "#js/rankings/conflict.js";
 import { MiniCards } from "#js/rankings/mini-cards.js";
-import { flat } from "#js/rankings/order.js";
+import { flat, isSame } from "#js/rankings/order.js";
 import { saveOrders } from "#js/rankings/order-file.js";
 import { Refusals } from "#js/rankings/refusals.js";
-import { canOrder, differing, OUTCOMES, printOf } from "#js/rankings/standing.js";
+import { canOrder, differing, OUTCOMES, printOf, says } from "#js/rankings/standing.js";
 import { Told } from "#js/rankings/told.js";
 import { Versions } from "#js/rankings/versions.js";
 
@@ -30,7 +30,7 @@ export class Confirmation {
   #newest;
   /** What was sent and is not answered yet: what the page said then. @type {Map<Outcome, string>} */
   #onItsWay = new Map();
-  #isAsking = false;
+  #wasWaiting = false;
   #told = new Told();
   #refusals;
   #versions;
@@ -61,11 +61,15 @@ export class Confirmation {
     this.#told.start(signal, { onShow: this.#onFocus, onSave });
     byId("confirm").addEventListener("click", () => void this.confirm(), { signal });
     this.#sitting.subscribe(() => this.#show());
+    this.#sitting.subscribeSaving(() => this.#onSaving());
+    this.#sitting.subscribeNews((news) => this.#onNews(news));
+    this.#sitting.subscribeArrivals(() => void this.catchUp());
+    this.#awaitOlder();
     this.#show();
   }
 
   async confirm() {
-    const outcomes = this.#isAsking ? [] : this.#toSend;
+    const outcomes = this.#toSend;
     if (outcomes.length === 0) return;
     const untouched = outcomes.filter((outcome) => this.#isUntouched(outcome));
     if (untouched.length > 0 && !(await this.#areTheirs(untouched))) return;
@@ -99,22 +103,37 @@ export class Confirmation {
 
   /** @param {Outcome[]} untouched */
   async #areTheirs(untouched) {
-    this.#isAsking = true;
     const isYes = await askUntouched(untouched, this.#sitting.state.way);
-    this.#isAsking = false;
     if (!isYes) this.#onFocus(flat(this.#sitting.orders[untouched[0]])[0]);
     return isYes;
   }
 
   /** @param {Outcome} outcome @param {boolean} untouched @returns {Promise<Answer>} */
-  async #send(outcome, untouched) {
-    const print = printOf(this.#sitting.state, outcome);
+  #send(outcome, untouched) {
+    const basedOn = this.#refusals.basisOf(outcome);
+    const sending = this.#sitting.confirm(outcome, { means: "button", untouched, basedOn });
+    return this.#await(outcome, { untouched, sending, print: printOf(this.#sitting.state, outcome) });
+  }
+
+  /** What was confirmed before a reload and has not arrived. */
+  #awaitOlder() {
+    for (const outcome of OUTCOMES) {
+      const older = this.#sitting.pending[outcome];
+      if (!older) continue;
+      const { order, untouched, done } = older;
+      const print = isSame(order, this.#sitting.orders[outcome]) ? printOf(this.#sitting.state, outcome) : "";
+      void this.#await(outcome, { untouched, sending: done, print }).then((answer) => this.#settle([answer]));
+    }
+  }
+
+  /** @param {Outcome} outcome @param {{untouched: boolean, sending: Promise<{ranking: Ranking}>, print: string}} sent @returns {Promise<Answer>} */
+  async #await(outcome, { untouched, sending, print }) {
     this.#onItsWay.set(outcome, print);
+    this.#show();
     try {
-      const sending = this.#sitting.confirm(outcome, { means: "button", untouched });
-      this.#show();
       const { ranking } = await sending;
       this.#newest[outcome] = ranking;
+      this.#refusals.forget(outcome);
       return { outcome, untouched, ranking };
     } catch (error) {
       if (!(error instanceof ApiError)) throw error;
@@ -134,6 +153,22 @@ export class Confirmation {
     const sentence = [...confirmed, ...sentences].join(" ");
     if (sentences.length > 0) this.#told.say(sentence, help);
     else announce(sentence);
+  }
+
+  /** It waits, or no longer does. */
+  #onSaving() {
+    this.#show();
+    const isWaiting = this.#sitting.waiting !== null;
+    if (isWaiting && !this.#wasWaiting) announceToo(byId("rank-state").textContent ?? "");
+    this.#wasWaiting = isWaiting;
+  }
+
+  /** Another tab was faster, or an earlier page. @param {{outcome: Outcome, ranking: Ranking}} news */
+  #onNews({ outcome, ranking }) {
+    if (ranking.version <= (this.#newest[outcome]?.version ?? 0)) return;
+    this.#newest[outcome] = ranking;
+    this.#show();
+    if (!says(this.#sitting.state, ranking, outcome)) this.#told.say(elsewhereSentence(outcome, ranking.version));
   }
 
   #show() {
@@ -157,7 +192,8 @@ export class Confirmation {
       counts: Object.fromEntries(counting.map((outcome) => [outcome, this.#newest[outcome]?.version])),
       differs: differing(state, this.#newest),
       onItsWay: [...this.#onItsWay.keys()],
-      trouble: null,
+      trouble: this.#sitting.waiting,
+      lasts: this.#sitting.lasts,
     });
     byId("rank-state").hidden = byId("rank-state").textContent === "";
   }

@@ -28,10 +28,22 @@ const NOT_ABOUT_CARDS = new Set(["stale_version", "untouched", "log_differs", "c
 
 export class Refusals {
   #parts;
+  /** The version that the person's next order is to follow, where that is not for the sitting to say. @type {Partial<Record<Outcome, number>>} */
+  #basis = {};
 
   /** @param {Parts} parts */
   constructor(parts) {
     this.#parts = parts;
+  }
+
+  /** @param {Outcome} outcome @returns {number | undefined} */
+  basisOf(outcome) {
+    return this.#basis[outcome];
+  }
+
+  /** It was taken, so the sitting knows what the next one follows. @param {Outcome} outcome */
+  forget(outcome) {
+    delete this.#basis[outcome];
   }
 
   /** @param {Answer[]} refused @returns {Promise<Explanation>} */
@@ -73,13 +85,17 @@ export class Refusals {
 
   /** Another order was confirmed after this page was opened: the person says which counts. @param {Outcome} outcome @param {boolean} untouched */
   async #decide(outcome, untouched) {
-    const theirs = await this.#newestOf(outcome);
-    if (!theirs) return words.refusedSentence(outcome, words.OTHER_UNSEEN);
     const { sitting, cards } = this.#parts;
-    if (says(sitting.state, theirs, outcome)) return words.sameSentence(outcome, theirs.version);
-    const answer = await askWhichCounts(cards, { outcome, mine: sitting.orders[outcome], theirs });
-    if (answer === "mine") return this.#sayOf(await this.#parts.send(outcome, untouched), theirs.version);
+    const theirs = await this.#newestOf(outcome);
+    // Until the person has chosen, nothing follows the order they did not know: the next try asks again.
+    this.#basis[outcome] = (theirs?.version ?? 1) - 1;
+    if (!theirs) return words.refusedSentence(outcome, words.OTHER_UNSEEN);
+    const isSame = says(sitting.state, theirs, outcome);
+    const answer = isSame ? "same" : await askWhichCounts(cards, { outcome, mine: sitting.orders[outcome], theirs });
     if (answer === "later") return words.undecidedSentence(outcome, theirs.version);
+    this.#basis[outcome] = theirs.version;
+    if (answer === "mine") return this.#sayOf(await this.#parts.send(outcome, untouched), theirs.version);
+    if (answer === "same") return words.sameSentence(outcome, theirs.version);
     this.#take(outcome, theirs);
     return words.tookSentence(outcome, theirs.version);
   }
