@@ -49,6 +49,7 @@ from irl_core.mdp import GridMdp, Mdp, SparseMdp
 from irl_core.mdp.toy_text import from_gymnasium
 from irl_core.planning import HardPlan, SoftPlan, hard_plan, soft_plan, spectral_radius, visitation
 from irl_core.playing import simulate, slip_direction
+from irl_core.preferences import order_from_comparisons
 from irl_core.trajectories import demonstration_of
 from irl_core.types import Demonstration, Ranking, World
 from irl_core.warm import warm_up
@@ -113,6 +114,7 @@ __all__ = [
     "learn",
     "optimal_plan",
     "optimum",
+    "order_from_comparisons",
     "paper_index",
     "rank_weights",
     "read_demonstration_file",
