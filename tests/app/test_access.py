@@ -11,6 +11,7 @@ from app.kit.clock import now
 from app.models import Run, Visitor
 from tests.conftest import open_client
 from tests.factories import attempt, make_demonstration, make_ranking, make_world
+from tests.sitting import Sitting
 
 RUN_ID = "11111111-2222-4333-8444-555555555555"
 
@@ -32,6 +33,7 @@ EVERYBODY = {
     ("GET", "/api/v1/worlds/{world_id}/demonstrations"): (200, 200, 200),
     ("GET", "/api/v1/worlds/{world_id}/steps.csv"): (200, 200, 200),
     ("GET", "/api/v1/worlds/{world_id}/rankings"): (200, 200, 200),
+    ("GET", "/api/v1/worlds/{world_id}/rankings/{outcome}/versions"): (200, 200, 200),
     ("GET", "/api/v1/worlds/{world_id}/rankings.csv"): (200, 200, 200),
     ("GET", "/api/v1/worlds/{world_id}/rankings.jsonl"): (200, 200, 200),
     ("GET", "/api/v1/worlds/{world_id}/ranking-events.csv"): (200, 200, 200),
@@ -42,6 +44,7 @@ OWNER_ONLY = {
     ("PUT", "/api/v1/demonstrations/{demonstration_id}/discard"): (404, 200, 404),
     ("DELETE", "/api/v1/demonstrations/{demonstration_id}/discard"): (404, 200, 404),
     ("PUT", "/api/v1/worlds/{world_id}/rankings/{outcome}"): (422, 200, 422),
+    ("POST", "/api/v1/worlds/{world_id}/sittings/{sitting_id}/events"): (404, 200, 404),
     ("GET", "/api/v1/worlds/{world_id}/rankings/{outcome}/agreement"): (404, 200, 404),
     ("GET", "/worlds/{world_id}/compare"): (303, 303, 303),
     ("GET", "/api/v1/runs/{run_id}"): (404, 200, 404),
@@ -78,7 +81,11 @@ def test_who_may(client, other_client, method, path):
     make_demonstration(other_client, world)
     make_ranking(client, world, "success", [played["id"]])
     store_ended_run(client, world, played)
-    url = path.format(world_id=world["id"], demonstration_id=played["id"], run_id=RUN_ID, outcome="success")
+    sitting = Sitting(client, world)
+    sitting.begin()
+    assert sitting.send().status_code == 200
+    ids = {"world_id": world["id"], "demonstration_id": played["id"], "run_id": RUN_ID, "sitting_id": sitting.id}
+    url = path.format(**ids, outcome="success")
     body = body_for(method, path, world, played)
     answers = [
         asking.request(method, url, follow_redirects=False, headers={"Last-Event-ID": "9"}, **body)
@@ -97,6 +104,8 @@ def body_for(method, path, world, played):
         return {"json": {"order": [[played["id"]]], "confirmed": True}}
     if path.endswith("/runs") and method == "POST":
         return {"json": {"learners": ["meirl"]}}
+    if path.endswith("/events") and method == "POST":
+        return {"json": {"events": [{"n": 1, "at_ms": 1, "type": "watch", "means": "mouse", "id": played["id"]}]}}
     return {"json": {}} if (method, path) == ("POST", "/api/v1/worlds") else {}
 
 
