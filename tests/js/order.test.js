@@ -14,7 +14,7 @@ import {
   toggleTie,
   weights,
 } from "#js/rankings/order.js";
-import { drawnOrder, dice } from "./random.js";
+import { dice, drawnOrder } from "./random.js";
 
 const ABC = [["a"], ["b"], ["c"]];
 const alone = (group) => ({ group, joins: false });
@@ -71,7 +71,12 @@ test("an older order keeps what is still there and takes in what is new, last", 
 
 test("an order holds the same cards as another only if it holds each once and no empty group", () => {
   assert.ok(holdsTheSame(ABC, [["c", "b"], ["a"]]));
-  for (const other of [[["a"], ["b"]], [["a"], ["b"], ["c"], ["c"]], [["a"], ["b"], ["d"]], [["a", "b", "c"], []]])
+  for (const other of [
+    [["a"], ["b"]],
+    [["a"], ["b"], ["c"], ["c"]],
+    [["a"], ["b"], ["d"]],
+    [["a", "b", "c"], []],
+  ])
     assert.ok(!holdsTheSame(ABC, other), JSON.stringify(other));
 });
 
@@ -109,7 +114,12 @@ test("wherever a card goes, the order stays one of the same cards, and all other
     const rng = dice(seed);
     const order = drawnOrder(rng, 1 + rng.upTo(12));
     const id = rng.of(flat(order));
-    for (const where of [step(order, id, -1), step(order, id, 1), step(order, id, rng.upTo(9) - 4), toggleTie(order, id)]) {
+    for (const where of [
+      step(order, id, -1),
+      step(order, id, 1),
+      step(order, id, rng.upTo(9) - 4),
+      toggleTie(order, id),
+    ]) {
       if (!where) continue;
       const next = place(order, id, where);
       assert.ok(holdsTheSame(order, next));
@@ -126,7 +136,8 @@ test("from anywhere, steps up come to the top in as many as there are groups abo
     let order = drawnOrder(rng, 1 + rng.upTo(12));
     const id = rng.of(flat(order));
     let nSteps = groupOf(order, id) + (isInTie(order, id) ? 1 : 0);
-    for (let where = step(order, id, -1); where; where = step(order, id, -1), nSteps -= 1) order = place(order, id, where);
+    for (let where = step(order, id, -1); where; where = step(order, id, -1), nSteps -= 1)
+      order = place(order, id, where);
     assert.equal(nSteps, 0);
     assert.deepEqual(order[0], [id]);
   }

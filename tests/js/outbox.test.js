@@ -257,3 +257,43 @@ test("a storage that cannot forget does not make the page send for ever", async 
   await outbox.flush();
   assert.deepEqual(sent, ["a"]);
 });
+
+const ranking = (n) => ({
+  kind: "ranking",
+  id: "ranking:s:success",
+  worldId: "w",
+  sittingId: "s",
+  outcome: "success",
+  body: { order: [["a"]], confirmed: true, based_on: 0, untouched: false, sitting: { id: "s", events: [{ n }] } },
+});
+
+test("an order that the server refuses is kept with all it said, until its page has read it", async () => {
+  const stale = new ApiError({ status: 409, code: "stale_version", message: "another", fields: { version: "3" } });
+  const { outbox, store, sent } = make([stale]);
+  await outbox.add(ranking(4));
+  await outbox.flush();
+  const [{ refusal: words, status, code, fields }] = await store.all();
+  assert.deepEqual([words, status, code, fields], ["another", 409, "stale_version", { version: "3" }]);
+  await outbox.flush();
+  assert.deepEqual(sent, ["ranking:s:success"]);
+  await outbox.forget("ranking:s:success");
+  assert.deepEqual(await store.all(), []);
+});
+
+test("an order confirmed again takes the place of the one that waits", async () => {
+  const { outbox, store } = make([offline(), offline(), offline()]);
+  await outbox.add(ranking(4));
+  await outbox.add(ranking(9));
+  assert.deepEqual(
+    (await store.all()).map(({ body }) => body.sitting.events),
+    [[{ n: 9 }]],
+  );
+});
+
+test("a log that the server refuses is told, and over: its sitting still has it", async () => {
+  const { outbox, store, news } = make([refusal(422)]);
+  await outbox.add({ kind: "log", id: "log:s", worldId: "w", sittingId: "s", events: [{ n: 0 }] });
+  await outbox.flush();
+  assert.equal(news.at(-1), "refused log:s");
+  assert.deepEqual(await store.all(), []);
+});

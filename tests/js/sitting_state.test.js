@@ -6,7 +6,8 @@ import { dice, drawnOrder } from "./random.js";
 
 const N_WALKS = 400;
 const begin = (orders) => ({ type: "begin", means: "page", orders, way: "lists" });
-const after = (state, ...changes) => changes.reduce((now, change) => apply(now, { means: "key", ...change }) ?? now, state);
+const after = (state, ...changes) =>
+  changes.reduce((now, change) => apply(now, { means: "key", ...change }) ?? now, state);
 const success = (more) => ({ outcome: "success", ...more });
 const ABC = beginState(begin({ success: [["a"], ["b"], ["c"]], failure: [["x"], ["y"]] }));
 const UNDO = { type: "undo" };
@@ -36,7 +37,9 @@ function drawn(state, rng) {
 /** A walk of so many changes; each step is told. @param {number} seed @param {(before: any, change: any, after: any, rng: any) => void} [step] */
 function walk(seed, step = () => {}) {
   const rng = dice(seed);
-  let state = beginState(begin({ success: drawnOrder(rng, 1 + rng.upTo(6), "s"), failure: drawnOrder(rng, 1 + rng.upTo(6), "f") }));
+  let state = beginState(
+    begin({ success: drawnOrder(rng, 1 + rng.upTo(6), "s"), failure: drawnOrder(rng, 1 + rng.upTo(6), "f") }),
+  );
   for (let n = rng.upTo(40); n > 0; n -= 1) {
     const change = drawn(state, rng);
     const next = apply(state, change);
@@ -150,7 +153,10 @@ test("a lift that leads back to where it began is no step, and what had been und
 test("a list is touched by the first change in it, undone or not", () => {
   assert.deepEqual(ABC.touched, { success: false, failure: false });
   assert.deepEqual(after(ABC, TOP, UNDO).touched, { success: true, failure: false });
-  assert.deepEqual(after(ABC, { type: "stretch", id: "x", from: 1, to: 2, kind: "bad" }).touched, { success: false, failure: true });
+  assert.deepEqual(after(ABC, { type: "stretch", id: "x", from: 1, to: 2, kind: "bad" }).touched, {
+    success: false,
+    failure: true,
+  });
   assert.deepEqual(after(ABC, success({ type: "lift", id: "c" }), { type: "put_back" }).touched.success, false);
 });
 

@@ -32,10 +32,15 @@ export function startOf(data) {
   };
 }
 
-/** @param {Start} start @param {any} options of the page, or of a sitting that goes on @returns {Change} */
-export function beginOf({ orders, from, versions }, { way, showTotals }) {
-  const { hold_to_move: _, ...client } = new Client({ showTotals, holdToMove: false }).describe();
+/** @param {Start} start @param {{way: string, client: unknown}} rest @returns {Change} */
+export function beginOf({ orders, from, versions }, { way, client }) {
   return { type: "begin", means: "page", orders, from, based_on: { ...versions }, way, client };
+}
+
+/** What the browser and the device are like. @param {boolean} showTotals */
+export function describeClient(showTotals) {
+  const { hold_to_move: _, ...client } = new Client({ showTotals, holdToMove: false }).describe();
+  return client;
 }
 
 /** Which attempts came since an order was made, in the order that the server drew, and which went. @param {any} data @param {Outcome} outcome @param {Order} order */

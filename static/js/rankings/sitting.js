@@ -29,6 +29,7 @@ import { apply, beginState, SILENT } from "#js/rankings/sitting-state.js";
  * @property {(run: () => void, ms: number) => void} [wait]
  * @property {() => number} [now]        monotonic ms
  * @property {() => string} [newId]
+ * @property {(showTotals: boolean) => unknown} [client]   what the browser and the device are like
  */
 
 export class Sitting {
@@ -116,9 +117,9 @@ export class Sitting {
 
   /** @param {any} data @param {Around} around */
   static #begin(data, around) {
-    const { newId = uuid } = around;
+    const { newId = uuid, client = beginning.describeClient } = around;
     const [start, showTotals] = [beginning.startOf(data), data.options.show_totals];
-    const begin = beginning.beginOf(start, { way: data.options.ways[0], showTotals });
+    const begin = beginning.beginOf(start, { way: data.options.ways[0], client: client(showTotals) });
     const book = { id: newId(), worldId: data.world.id, log: [], acknowledged: 0, versions: start.versions };
     const sitting = new Sitting({ book, state: beginState(begin), showTotals }, around);
     sitting.#append(begin);
@@ -233,10 +234,10 @@ export class Sitting {
    */
   #renew() {
     if (this.#isRenewed && this.#book.acknowledged === 0) return false;
-    const { newId = uuid, journal } = this.#around;
+    const { newId = uuid, client = beginning.describeClient, journal } = this.#around;
     const [before, left, { worldId, versions }] = [this.#state, this.#entry(), this.#book];
     const start = { orders: before.present.orders, from: { success: "draft", failure: "draft" }, versions };
-    const begin = beginning.beginOf(start, { way: before.way, showTotals: this.#showsTotals });
+    const begin = beginning.beginOf(start, { way: before.way, client: client(this.#showsTotals) });
     this.#isRenewed = true;
     this.#book = { id: newId(), worldId, log: [], acknowledged: 0, versions: { ...versions } };
     this.#began = this.#now();

@@ -1,0 +1,426 @@
+import assert from "node:assert/strict";
+import test from "node:test";
+import { dice } from "./random.js";
+import { Browser, stateOf } from "./sitting_house.js";
+
+const MINE = { means: "button" };
+const UNDO = { type: "undo", means: "button" };
+const REDO = { type: "redo", means: "button" };
+const typesOf = (log) => log.map(({ type }) => type);
+const logOf = (browser, { sitting }) => browser.server.logs.get(sitting.id) ?? [];
+/** The state without what only the hand knows. */
+const contents = ({ past, present, future, way, touched }) => ({ past, present, future, way, touched });
+
+/** A tab that has done something and undone some of it. */
+async function busy(browser, name = "first") {
+  const tab = await browser.open(name);
+  for (const id of ["a", "b", "a", "c"]) tab.top(id);
+  tab.sitting.do({ type: "answer", means: "key", outcome: "success", a: "a", b: "b", said: "a" });
+  tab.sitting.do({ type: "place", means: "touch", outcome: "failure", id: "y", group: 0, joins: true });
+  tab.sitting.do(UNDO);
+  tab.sitting.do(UNDO);
+  return tab;
+}
+
+test("it begins with the random order as drawn, and the server hears of it", async () => {
+  const browser = new Browser();
+  const tab = await browser.open("first");
+  assert.equal(tab.order, "cba");
+  const [begin] = logOf(browser, tab);
+  assert.deepEqual(begin.from, { success: "random", failure: "random" });
+  assert.deepEqual([begin.n, begin.at_ms, begin.based_on], [0, 0, { success: 0, failure: 0 }]);
+});
+
+test("what nothing comes of is no event, what cannot be is none, and listeners hear of the others", async () => {
+  const tab = await new Browser().open("first");
+  const heard = [];
+  tab.sitting.subscribe((state, event) => heard.push([event.n, event.type, state === tab.sitting.state]));
+  assert.ok(!tab.top("c"));
+  assert.ok(!tab.sitting.do(REDO));
+  assert.ok(!tab.top("x"));
+  assert.ok(tab.top("a"));
+  assert.ok(tab.sitting.do({ type: "watch", means: "mouse", id: "a" }));
+  assert.deepEqual(heard, [
+    [1, "place", true],
+    [2, "watch", true],
+  ]);
+});
+
+test("the server's log is what was done: in order, with its times, and it rebuilds the page", async () => {
+  const browser = new Browser();
+  const tab = await busy(browser);
+  await tab.settle();
+  const log = logOf(browser, tab);
+  assert.deepEqual(typesOf(log), ["begin", "place", "place", "place", "place", "answer", "place", "undo", "undo"]);
+  assert.deepEqual(
+    log.map(({ n }) => n),
+    [0, 1, 2, 3, 4, 5, 6, 7, 8],
+  );
+  assert.deepEqual(
+    log.map(({ at_ms }) => at_ms),
+    [0, 1000, 2000, 3000, 4000, 4000, 4000, 4000, 4000],
+  );
+  assert.deepEqual(stateOf(log), tab.sitting.state);
+});
+
+for (const isKilled of [false, true]) {
+  test(`a page that is ${isKilled ? "killed" : "closed"} and opened again goes on, with undo and redo, and time goes on`, async () => {
+    const browser = new Browser();
+    const first = await busy(browser);
+    const before = first.sitting.state;
+    first.close({ isKilled });
+    const second = await browser.open("second");
+    assert.equal(second.sitting.id, first.sitting.id);
+    assert.deepEqual(contents(second.sitting.state), contents(before));
+    second.now = 500;
+    assert.ok(second.sitting.do(REDO) && second.sitting.do(REDO) && second.sitting.do(UNDO));
+    await second.settle();
+    const log = logOf(browser, second);
+    assert.deepEqual(typesOf(log.slice(-4)), ["resumed", "redo", "redo", "undo"]);
+    assert.ok(log.at(-4).away_ms >= 0);
+    assert.deepEqual(
+      log.slice(-4).map(({ at_ms }) => at_ms),
+      [4000, 4500, 4500, 4500],
+    );
+    assert.deepEqual(stateOf(log), second.sitting.state);
+  });
+}
+
+test("killed after any event, it goes on from exactly there", async () => {
+  for (let seed = 1; seed <= 40; seed += 1) {
+    const rng = dice(seed);
+    const browser = new Browser();
+    const first = await browser.open("first");
+    for (let n = rng.upTo(12); n > 0; n -= 1)
+      rng.next() < 0.6 ? first.top(rng.of(["a", "b", "c"])) : first.sitting.do(rng.of([UNDO, REDO]));
+    if (rng.next() < 0.5) await first.settle();
+    first.close({ isKilled: true });
+    const second = await browser.open("second");
+    assert.deepEqual(contents(second.sitting.state), contents(first.sitting.state));
+    await second.settle();
+    assert.deepEqual(contents(stateOf(logOf(browser, second))), contents(second.sitting.state));
+  }
+});
+
+test("a card that was lifted when the page went is put down where it was", async () => {
+  const browser = new Browser();
+  const first = await browser.open("first");
+  first.sitting.do({ type: "lift", means: "key", outcome: "success", id: "a" });
+  first.top("a");
+  first.close({ isKilled: true });
+  const { sitting, order } = await browser.open("second");
+  assert.deepEqual([order, sitting.state.lifted, sitting.state.past.length], ["acb", null, 1]);
+});
+
+test("attempts that came and went meanwhile join and leave, and nothing else moves", async () => {
+  const browser = new Browser();
+  const first = await busy(browser);
+  first.close();
+  browser.cards = { success: ["a", "c", "d"], failure: ["x", "y"] };
+  const second = await browser.open("second");
+  assert.equal(second.order, "cad");
+  await second.settle();
+  assert.deepEqual(logOf(browser, second).at(-1).added, ["d"]);
+});
+
+test("a way that is no longer offered makes room for one that is", async () => {
+  const browser = new Browser();
+  (await busy(browser)).close();
+  browser.ways = ["magnitude"];
+  assert.equal((await browser.open("second")).sitting.state.way, "magnitude");
+});
+
+test("while another tab holds it this one begins its own", async () => {
+  const browser = new Browser();
+  const first = await busy(browser);
+  const second = await browser.open("second");
+  assert.notEqual(second.sitting.id, first.sitting.id);
+  assert.equal(second.order, "cba");
+});
+
+test("a storage that is damaged at any event goes on from the one before", async () => {
+  for (const damage of [(event) => ({ ...event, id: "nobody" }), () => null, () => ({ n: 3 })]) {
+    const browser = new Browser();
+    browser.server.isAway = true;
+    const first = await browser.open("first");
+    for (const id of ["a", "b", "a", "c"]) first.top(id);
+    first.close({ isKilled: true });
+    const key = `${first.sitting.id} 3`;
+    const damaged = damage(browser.events.get(key));
+    if (damaged) browser.events.set(key, damaged);
+    else browser.events.delete(key);
+    assert.equal((await browser.open("second")).order, "bac", String(damage));
+  }
+});
+
+test("a sitting without a beginning is set aside, and stops nobody", async () => {
+  const browser = new Browser();
+  const first = await busy(browser);
+  first.close();
+  browser.events.delete(`${first.sitting.id} 0`);
+  const second = await browser.open("second");
+  assert.equal(second.order, "cba");
+  assert.ok(browser.entries.get(first.sitting.id).isSetAside);
+});
+
+test("where the storage is full the page goes on; what it did not take survives the closing", async () => {
+  const browser = new Browser();
+  const first = await browser.open("first");
+  browser.isFull = true;
+  first.top("a");
+  first.top("b");
+  await first.settle();
+  assert.equal(first.sitting.lasts, false);
+  first.close();
+  browser.isFull = false;
+  assert.equal((await browser.open("second")).order, "bac");
+});
+
+test("a confirmed order resolves when the server has it, with the log up to there", async () => {
+  const browser = new Browser();
+  const tab = await busy(browser);
+  const confirmed = tab.sitting.confirm("success", MINE);
+  assert.deepEqual(tab.sitting.pending.success.order, tab.sitting.orders.success);
+  await tab.settle();
+  const { ranking } = await confirmed;
+  assert.deepEqual([ranking.version, ranking.order, ranking.n_events], [1, tab.sitting.orders.success, 10]);
+  assert.equal(logOf(browser, tab).at(-1).type, "confirm");
+  assert.deepEqual(tab.sitting.pending, {});
+});
+
+test("both lists confirmed at once are both stored", async () => {
+  const browser = new Browser();
+  const tab = await busy(browser);
+  const both = Promise.all(["success", "failure"].map((outcome) => tab.sitting.confirm(outcome, MINE)));
+  await tab.settle();
+  assert.deepEqual(
+    (await both).map(({ ranking }) => [ranking.outcome, ranking.version]),
+    [
+      ["success", 1],
+      ["failure", 1],
+    ],
+  );
+});
+
+test("confirmed again it is the next version, without a question", async () => {
+  const browser = new Browser();
+  const tab = await busy(browser);
+  for (const [i, id] of ["a", "b", "c"].entries()) {
+    tab.top(id);
+    const confirmed = tab.sitting.confirm("success", MINE);
+    await tab.settle();
+    assert.equal((await confirmed).ranking.version, i + 1);
+  }
+});
+
+test("offline it waits and says so; confirmed again meanwhile, the last one counts", async () => {
+  const browser = new Browser();
+  const tab = await busy(browser);
+  await tab.settle();
+  browser.server.isAway = true;
+  let nTold = 0;
+  tab.sitting.subscribeSaving(() => {
+    nTold += 1;
+  });
+  const first = tab.sitting.confirm("success", MINE);
+  await tab.settle();
+  assert.deepEqual([tab.sitting.waiting?.status, nTold > 0], [0, true]);
+  tab.top("b");
+  const second = tab.sitting.confirm("success", MINE);
+  await tab.settle();
+  browser.server.isAway = false;
+  await tab.settle();
+  assert.deepEqual((await second).ranking.order, tab.sitting.orders.success);
+  assert.deepEqual(await first, await second);
+  assert.equal(tab.sitting.waiting, null);
+  assert.equal(browser.server.versions.success.length, 1);
+  assert.equal(logOf(browser, tab).filter(({ type }) => type === "confirm").length, 2);
+});
+
+test("what was confirmed offline before the page was closed is still known, and arrives", async () => {
+  const browser = new Browser();
+  const first = await busy(browser);
+  browser.server.isAway = true;
+  void first.sitting.confirm("success", MINE);
+  await first.settle();
+  first.close();
+  const second = await browser.open("second");
+  assert.equal(second.sitting.id, first.sitting.id);
+  const { done, order } = second.sitting.pending.success;
+  assert.deepEqual(order, second.sitting.orders.success);
+  browser.server.isAway = false;
+  await second.settle();
+  assert.equal((await done).ranking.version, 1);
+  const confirmed = second.sitting.confirm("success", MINE);
+  await second.settle();
+  assert.equal((await confirmed).ranking.version, 2);
+});
+
+test("what was refused while the page was closed is told to the next", async () => {
+  const browser = new Browser();
+  const first = await busy(browser);
+  browser.server.isAway = true;
+  void first.sitting.confirm("success", MINE);
+  await first.settle();
+  first.close();
+  browser.server.isAway = false;
+  browser.server.refusals.push({ path: /rankings/, status: 409, code: "new_attempts", fields: { missing: "d" } });
+  await first.outbox.flush();
+  const second = await browser.open("second");
+  await assert.rejects(second.atFirst.success.done, { status: 409, code: "new_attempts", fields: { missing: "d" } });
+  assert.deepEqual([second.sitting.pending, await browser.parcels.all()], [{}, []]);
+});
+
+test("confirmed and acknowledged, the page opened anew begins anew, from what counts", async () => {
+  const browser = new Browser();
+  const first = await busy(browser);
+  for (const outcome of ["success", "failure"]) void first.sitting.confirm(outcome, MINE);
+  await first.settle();
+  first.sitting.do({ type: "hidden", means: "page" });
+  first.close();
+  const second = await browser.open("second");
+  assert.notEqual(second.sitting.id, first.sitting.id);
+  assert.deepEqual(second.sitting.orders, first.sitting.orders);
+  const [begin] = logOf(browser, second);
+  assert.deepEqual([begin.from.success, begin.based_on], ["version", { success: 1, failure: 1 }]);
+  assert.equal(logOf(browser, first).at(-1).type, "hidden");
+  assert.deepEqual([...browser.entries.keys()], [second.sitting.id]);
+});
+
+test("a refusal rejects with what the server said, and the order stays", async () => {
+  const browser = new Browser();
+  const tab = await busy(browser);
+  const { order } = tab;
+  browser.server.refusals.push({ path: /rankings/, status: 422, code: "invalid", fields: { order: "discarded: a" } });
+  const confirmed = tab.sitting.confirm("success", MINE);
+  await Promise.all([
+    tab.settle(),
+    assert.rejects(confirmed, { status: 422, code: "invalid", fields: { order: "discarded: a" } }),
+  ]);
+  assert.deepEqual([tab.order, tab.sitting.pending, await browser.parcels.all()], [order, {}, []]);
+});
+
+test("two tabs: the second to confirm is asked, both versions stay, and each hears of the other", async () => {
+  const browser = new Browser();
+  const [first, second] = [await busy(browser, "first"), await browser.open("second")];
+  const news = [];
+  second.sitting.subscribeNews(({ outcome, ranking }) => news.push([outcome, ranking.version]));
+  void first.sitting.confirm("success", MINE);
+  await first.settle();
+  assert.deepEqual(news, [["success", 1]]);
+  second.top("b");
+  const refused = assert.rejects(second.sitting.confirm("success", MINE), {
+    status: 409,
+    code: "stale_version",
+    fields: { version: "1" },
+  });
+  await second.settle();
+  await refused;
+  const again = second.sitting.confirm("success", MINE);
+  await second.settle();
+  assert.equal((await again).ranking.version, 2);
+  assert.equal(browser.server.versions.success.length, 2);
+});
+
+test("a server that has lost some of the log gets it again", async () => {
+  const browser = new Browser();
+  const tab = await busy(browser);
+  await tab.settle();
+  browser.server.logs.set(tab.sitting.id, logOf(browser, tab).slice(0, 3));
+  tab.top("b");
+  const confirmed = tab.sitting.confirm("success", MINE);
+  await tab.settle();
+  assert.equal((await confirmed).ranking.version, 1);
+  assert.deepEqual(stateOf(logOf(browser, tab)), tab.sitting.state);
+  browser.server.logs.clear();
+  tab.top("a");
+  await tab.settle();
+  assert.deepEqual(stateOf(logOf(browser, tab)), tab.sitting.state);
+});
+
+for (const by of ["log", "order"]) {
+  test(`where the server would not have the log (met by the ${by}) the work goes on in another sitting, and is confirmed in it`, async () => {
+    const browser = new Browser();
+    const tab = await busy(browser);
+    await tab.settle();
+    const before = tab.sitting.id;
+    const { present } = tab.sitting.state;
+    const other = { ...logOf(browser, tab).at(-1), n: 9, at_ms: 1 };
+    browser.server.logs.get(before).push({ ...other, type: "watch", id: "a" });
+    if (by === "log") {
+      tab.sitting.do({ type: "watch", means: "mouse", id: "b" });
+      await tab.settle();
+    }
+    const confirmed = tab.sitting.confirm("success", MINE);
+    await tab.settle();
+    assert.equal((await confirmed).ranking.version, 1);
+    assert.notEqual(tab.sitting.id, before);
+    assert.deepEqual(tab.sitting.state.present, present);
+    assert.deepEqual(logOf(browser, tab)[0].from, { success: "draft", failure: "draft" });
+    assert.deepEqual(stateOf(logOf(browser, tab)), tab.sitting.state);
+    assert.ok(browser.entries.get(before).isSetAside);
+  });
+}
+
+test("a server that has no logs at all is asked no more than twice, and nothing on the page is lost", async () => {
+  const browser = new Browser();
+  const no = (status, code, fields) =>
+    browser.server.refusals.push(...Array(9).fill({ path: /events/, status, code, fields }));
+  no(422, "invalid", { events: "no" });
+  const tab = await busy(browser);
+  await tab.settle();
+  tab.top("b");
+  await tab.settle();
+  assert.equal(browser.server.calls.length, 2);
+  assert.equal(tab.order, "bca");
+});
+
+test("where the server does not know the browser any more the sitting stays as it is", async () => {
+  const browser = new Browser();
+  browser.server.refusals.push(...Array(9).fill({ path: /events/, status: 404, code: "not_found" }));
+  const first = await busy(browser);
+  await first.settle();
+  const { id, state } = first.sitting;
+  first.close();
+  const second = await browser.open("second");
+  assert.deepEqual([second.sitting.id, second.sitting.state.past.length], [id, state.past.length]);
+});
+
+test("a log longer than a call may be goes in several, the confirmation last", async () => {
+  const browser = new Browser();
+  const tab = await browser.open("first");
+  browser.server.isAway = true;
+  for (let i = 0; i < 700; i += 1) tab.top("abc"[i % 3]);
+  const confirmed = tab.sitting.confirm("success", MINE);
+  await tab.settle();
+  browser.server.isAway = false;
+  await tab.settle();
+  assert.equal((await confirmed).ranking.n_events, 702);
+  assert.deepEqual(stateOf(logOf(browser, tab)), tab.sitting.state);
+});
+
+test("every version that the server stored is what its log rebuilds, whatever was done", async () => {
+  for (let seed = 1; seed <= 25; seed += 1) {
+    const rng = dice(seed);
+    const browser = new Browser();
+    let tab = await browser.open("0");
+    for (let n = 1; n < 25; n += 1) {
+      const what = rng.upTo(9);
+      if (what < 3) tab.top(rng.of(["a", "b", "c"]));
+      else if (what < 5) tab.sitting.do(rng.of([UNDO, REDO]));
+      else if (what < 6) void tab.sitting.confirm(rng.of(["success", "failure"]), MINE).catch(() => {});
+      else if (what < 7) browser.server.isAway = !browser.server.isAway;
+      else if (what < 8) await tab.settle();
+      else {
+        tab.close({ isKilled: rng.next() < 0.5 });
+        tab = await browser.open(String(n));
+      }
+    }
+    browser.server.isAway = false;
+    await tab.settle();
+    for (const { outcome, order, sitting_id, n_events } of Object.values(browser.server.versions).flat())
+      assert.deepEqual(stateOf(browser.server.logs.get(sitting_id).slice(0, n_events)).present.orders[outcome], order);
+    assert.deepEqual(contents(stateOf(logOf(browser, tab))), contents(tab.sitting.state));
+    assert.deepEqual(await browser.parcels.all(), []);
+  }
+});
