@@ -25,6 +25,7 @@ SUBMODULES = (
     "influence",
     "maxent",
     "mdp.toy_text",
+    "preferences",
     "simulators",
 )
 HELPERS_OF_TYPES = {"HasStates", "HasTable"}  # what type checkers are told of an argument

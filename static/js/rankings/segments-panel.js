@@ -74,9 +74,8 @@ export class SegmentsPanel {
     if (this.#strip.isPinned) this.#strip.endHere();
     const isNew = this.#parts.sitting.do({ type: "stretch", means, id, ...run, kind });
     const said = kind === null ? "neither good nor bad" : `a ${kind} stretch`;
-    const steps = runWords(run);
     const score = `Score ${signed(this.#scoreOf(id), 2)}`;
-    announce(`${steps.charAt(0).toUpperCase()}${steps.slice(1)}: ${said}${isNew ? "" : ", as before"}. ${score}.`);
+    announce(`${capital(runWords(run))}: ${said}${isNew ? "" : ", as before"}. ${score}.`);
   }
 
   /** The order of a list becomes what follows from the marks. @param {Outcome} outcome */
@@ -111,7 +110,7 @@ export class SegmentsPanel {
     event.preventDefault();
   }
 
-  /** Those that stand first in the lists at the beginning come first here; marking moves nobody under the hand. @returns {string[]} */
+  /** As they were played: what is marked moves nobody under the hand. @returns {string[]} */
   get #ids() {
     const { demonstrations, sitting } = this.#parts;
     const there = new Set(OUTCOMES.flatMap((outcome) => flat(sitting.orders[outcome])));
@@ -176,7 +175,7 @@ export class SegmentsPanel {
     const run = selection ? endsOf(selection) : null;
     this.#ink?.draw(this.#parts.world, walk.states, this.#stretches, run);
     if (!this.#replay.isPlaying) this.#rest();
-    const chosen = run ? `${runWords(run)} chosen` : "";
+    const chosen = run ? `${capital(runWords(run))} chosen` : "";
     byId("stretches-run").textContent = isPinned && run ? `${chosen}. Go to the last step, then “To here”.` : chosen;
     byId("stretches-hint").hidden = run !== null;
     this.#root.dataset.pinned = String(isPinned);
@@ -232,4 +231,9 @@ export class SegmentsPanel {
     const agent = { state: walk.states[at], who: "human", facing: facingOf(this.#parts.world, walk, at) };
     this.#board.view = { paths: [{ states: walk.states, who: "human", width: 0.1 }], agents: [agent] };
   }
+}
+
+/** @param {string} text */
+function capital(text) {
+  return text.charAt(0).toUpperCase() + text.slice(1);
 }

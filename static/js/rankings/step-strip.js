@@ -16,6 +16,8 @@ import { endsOf, kindOf, select, stepsOf } from "#js/rankings/segments.js";
 /** @typedef {import("#js/rankings/sitting-state.js").Stretch} Stretch */
 
 const PAGE = 10;
+/** A long stretch says again what it is after so many steps, for its beginning may be out of sight. */
+const SAID_AGAIN = 8;
 
 export class StepStrip {
   #list;
@@ -204,9 +206,9 @@ export class StepStrip {
       cell.setAttribute("aria-selected", String(run !== null && run.from <= n && n <= run.to));
       cell.dataset.head = String(this.#selection !== null && n === head);
       cell.dataset.kind = kind ?? "";
-      // The word stands once, where its stretch begins.
-      const isFirst = kind !== null && this.#stretches.some(({ from }) => from === n);
-      /** @type {HTMLElement} */ (cell.lastElementChild).textContent = isFirst ? kind : "";
+      const beginning = this.#stretches.find(({ from, to }) => from <= n && n <= to)?.from ?? n;
+      const isSaid = (n - beginning) % SAID_AGAIN === 0;
+      /** @type {HTMLElement} */ (cell.lastElementChild).textContent = kind && isSaid ? kind : "";
       cell.setAttribute("aria-label", `${labelOf(this.#world, this.#steps[i])}${kind ? `, ${kind}` : ""}`);
     }
   }

@@ -13,6 +13,9 @@ import { placeOf } from "#js/board/state.js";
 
 /** In squares: off the middle of the path, so that a way gone twice shows both. */
 const SHIFT = { good: -0.12, bad: 0.12, chosen: 0 };
+/** On squares smaller than these (CSS pixels) lines and signs are drawn larger than their share, to be seen at all. */
+const FINE_LINES = 16;
+const FINE_SIGNS = 30;
 
 export class StretchInk {
   #board;
@@ -44,9 +47,11 @@ export class StretchInk {
   /** As large as the squares, which leave some of the board's box free. */
   #fit() {
     const { world, cell } = this.#board;
-    if (!world) return;
+    if (!world || cell === 0) return;
     this.#layer.setAttribute("width", String(cell * world.cols));
     this.#layer.setAttribute("height", String(cell * world.rows));
+    this.#layer.style.setProperty("--thick", String(Math.max(1, FINE_LINES / cell)));
+    this.#layer.style.setProperty("--large", String(Math.max(1, FINE_SIGNS / cell)));
   }
 }
 
@@ -76,8 +81,12 @@ function tag(kind, [x, y]) {
   const sign = kind === "good" ? "M-.1 0H.1M0-.1V.1" : "M-.1 0H.1";
   return makeSvg(
     "g",
-    { class: `stretch-tag stretch-tag--${kind}`, transform: `translate(${x} ${y})` },
-    makeSvg("circle", { r: 0.19 }),
-    makeSvg("path", { d: sign }),
+    { transform: `translate(${x} ${y})` },
+    makeSvg(
+      "g",
+      { class: `stretch-tag stretch-tag--${kind}` },
+      makeSvg("circle", { r: 0.19 }),
+      makeSvg("path", { d: sign }),
+    ),
   );
 }
