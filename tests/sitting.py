@@ -24,7 +24,7 @@ class Sitting:
         self.id = str(uuid.uuid4())
         self.log: list[Json] = []
 
-    def do(self, kind: str, **fields: Any) -> Json:
+    def do(self, kind: str, /, **fields: Any) -> Json:
         """Make the next event of the log."""
         n = len(self.log)
         self.log.append({"n": n, "at_ms": 10.5 * n, "type": kind, "means": "mouse"} | fields)
