@@ -5,6 +5,7 @@ import io
 import json
 import re
 import uuid
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -16,8 +17,11 @@ from app.rankings.exports import RANKING_COLUMNS
 from app.rankings.schemas import AgreementOut, RankingOut
 from app.worlds.queries import find_world
 from irl_core import LearningProblem, display_ranks, paper_index, rank_weights, read_demonstration_file
+from irl_core.preferences.comparisons import order_from_comparisons
+from irl_core.preferences.gaps import positions_from_gaps
+from irl_core.preferences.stretches import order_from_stretches
 from tests.conftest import open_client
-from tests.factories import make_demonstration, make_ranking, make_world, record_of
+from tests.factories import best_path, make_demonstration, make_ranking, make_world, record_of
 
 CODEBOOK = (Path(__file__).resolve().parents[2] / "docs" / "codebook.md").read_text(encoding="utf-8")
 CLIENT = {name: value for name, value in record_of(1)["client"].items() if name != "hold_to_move"}
@@ -48,9 +52,9 @@ class Log:
         self.add("begin", "page", orders=orders, way=way, client=client_told, based_on={"success": 0, "failure": 0},
                  **{"from": {"success": came_from, "failure": came_from}})  # fmt: skip
 
-    def add(self, kind, means="mouse", **fields):
+    def add(self, type_, means="mouse", /, **fields):
         n = len(self.events)
-        self.events.append({"n": n, "at_ms": 10.5 * n, "type": kind, "means": means, **fields})
+        self.events.append({"n": n, "at_ms": 10.5 * n, "type": type_, "means": means, **fields})
 
     def confirm(self, order, outcome="success", *, untouched=False):
         """Confirm with everything that happened so far, and return the version."""
@@ -233,6 +237,38 @@ def test_a_line_of_the_file_says_all_of_a_version(client, world):
     }
 
 
+def exported(client, world):
+    """What was given and the order, as the file has them last."""
+    return [(line["given"], line["order"]) for line in lines(client, world) if line["kind"] == "ranking"][-1]
+
+
+def test_answers_marks_and_gaps_that_are_exported_can_be_converted_again(client, world):
+    a, b, c = ids = successes(client, world, 3)
+    start = {"success": [[one] for one in ids], "failure": []}
+    log = Log(client, world, start, way="pairwise")
+    log.add("answer", outcome="success", a=a, b=c, said="b")
+    log.add("answer", outcome="success", a=a, b=b, said="alike")
+    log.add("set", "page", outcome="success", order=[[c], [a, b]], by="pairwise")
+    log.confirm([[c], [a, b]])
+    given, order = exported(client, world)
+    assert [list(group) for group in order_from_comparisons(ids, given)] == order
+    log = Log(client, world, start, way="segments")
+    log.add("stretch", id=b, kind="good", **{"from": 1, "to": 3})
+    log.add("stretch", id=b, kind="bad", **{"from": 3, "to": 3})
+    log.add("set", "page", outcome="success", order=[[b], [a, c]], by="segments")
+    log.confirm([[b], [a, c]])
+    given, order = exported(client, world)
+    assert given == {b: [{"from": 1, "to": 2, "kind": "good"}, {"from": 3, "to": 3, "kind": "bad"}]}
+    n_steps = {one: len(best_path(world)) for one in ids}
+    assert [list(group) for group in order_from_stretches(given, n_steps, outcome="success")] == order
+    log = Log(client, world, start, way="magnitude")
+    log.add("gap", outcome="success", above=a, below=b, value=70)
+    log.add("gap", outcome="success", above=b, below=c, value=5)
+    log.confirm(start["success"])
+    given, order = exported(client, world)
+    assert positions_from_gaps(order, given) == {a: 75, b: 5, c: 0}
+
+
 def test_the_file_of_a_run_counts_both_ways(client, world):
     a, b = successes(client, world, 2)
     confirm(client, world, [[b], [a]])
@@ -262,6 +298,7 @@ def test_what_comes_while_a_table_is_sent_is_not_in_it(client, world):
     with database.read() as session:
         visitor_id = session.connection().exec_driver_sql("SELECT visitor_id FROM ranking").scalar()
         stored = find_world(session, world["id"])
+    assert stored
     pieces = exports.rankings_file(database, visitor_id, stored)
     begun = next(pieces)
     new = make_demonstration(client, world)["id"]
@@ -317,8 +354,17 @@ def test_the_codebook_has_every_event_with_its_fields():
     assert f"at most {MOST_EVENTS:,} events" in section("The log of a sitting")
 
 
+def test_every_function_the_codebook_names_is_there():
+    names = re.findall(r"`(irl_core\.[\w.]+)`", CODEBOOK)
+    for name in names:
+        module, _, function = name.rpartition(".")
+        assert callable(getattr(import_module(module), function)), name
+    assert len(names) >= 4
+
+
 def test_the_codebooks_example_of_ranks_and_indices_holds():
     example = re.search(r"^\| place \*p\* (.*?)\n\n", section("An order"), flags=re.MULTILINE | re.DOTALL)
+    assert example
     cells = [line.split("|")[2:-1] for line in example[0].strip().splitlines()]
     _, ranks, indices, weights = [[float(cell) for cell in row] for row in cells]
     order = [["a"], ["b", "c"], ["d"]]
