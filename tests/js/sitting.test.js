@@ -316,7 +316,7 @@ test("two tabs: the second to confirm is asked, both versions stay, and each hea
   });
   await second.settle();
   await refused;
-  const again = second.sitting.confirm("success", MINE);
+  const again = second.sitting.confirm("success", { ...MINE, basedOn: 1 });
   await second.settle();
   assert.equal((await again).ranking.version, 2);
   assert.equal(browser.server.versions.success.length, 2);

@@ -187,8 +187,6 @@ export class Dispatch {
     const isOurs = sittingId === this.#book.id;
     if (isOfLog && (!isOurs || this.#mend(parcel, body.sitting.events[0]?.n ?? 0)) && this.#again(outcome, pending))
       return;
-    // Whoever is told of a newer order and confirms again means it to follow that one.
-    if (code === "stale_version") this.#book.versions[outcome] = numberIn(parcel, "version") ?? body.based_on;
     if (this.#pending[outcome] === pending) delete this.#pending[outcome];
     pending.reject(errorOf(parcel));
     this.#parts.onChange();
