@@ -180,22 +180,21 @@ export class Dispatch {
   async #refuse(parcel) {
     const pending = this.#pending[parcel.outcome];
     if (!pending || !this.#isOf(parcel)) return;
-    const { id, outcome, code = "", body, sittingId } = parcel;
     const isOfLog = isAboutTheLog(parcel) && !pending.isSecondTry;
-    await this.#parts.outbox.forget(id);
-    pending.isSecondTry = true;
-    const isOurs = sittingId === this.#book.id;
-    if (isOfLog && (!isOurs || this.#mend(parcel, body.sitting.events[0]?.n ?? 0)) && this.#again(outcome, pending))
-      return;
-    if (this.#pending[outcome] === pending) delete this.#pending[outcome];
+    await this.#parts.outbox.forget(parcel.id);
+    if (isOfLog && this.#tryAgain(parcel, pending)) return;
+    if (this.#pending[parcel.outcome] === pending) delete this.#pending[parcel.outcome];
     pending.reject(errorOf(parcel));
     this.#parts.onChange();
   }
 
-  /** @param {Outcome} outcome @param {Pending & Rest} pending */
-  #again(outcome, pending) {
-    const isElsewhere = pending.parcelId !== rankingId(this.#book.id, outcome);
-    if (isElsewhere && !this.#parts.confirmAgain(outcome, pending)) return false;
+  /** @param {RankingParcel} parcel @param {Pending & Rest} pending */
+  #tryAgain(parcel, pending) {
+    const { outcome, sittingId, body } = parcel;
+    pending.isSecondTry = true;
+    const isMended = sittingId !== this.#book.id || this.#mend(parcel, body.sitting.events[0]?.n ?? 0);
+    const isElsewhere = sittingId !== this.#book.id;
+    if (!isMended || (isElsewhere && !this.#parts.confirmAgain(outcome, pending))) return false;
     if (isElsewhere) pending.nEvents = this.#book.log.length;
     this.#send(outcome, pending);
     return true;
