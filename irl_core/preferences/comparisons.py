@@ -13,10 +13,11 @@ W_ij + E_ij > 0, and whatever follows along chains of it.
        Σ_ij (W_ij + E_ij / 2) log P(i above j) − Σ_i x_i² / 8
 
    is strictly concave; its one mode is found by Newton's method.
-3. *A component that contradicts itself* is ordered by strength; then one after another is put where it contradicts the
-   fewest answers, until no single move helps (a local optimum of Kemeny's criterion: the answers put the wrong way
-   round). Neighbours tie where they were called alike as often as they were told apart, or are equally strong: a beats
-   b beats c beats a says nothing but that the three are alike.
+3. *A component that contradicts itself* is a tie if all in it are equally strong: that a beats b, b beats c and c beats
+   a says nothing but that they are alike. Else it is ordered by strength; then one after another is put where it
+   contradicts the fewest answers, until no single move helps (a local optimum of Kemeny's criterion: the answers put
+   the wrong way round). Neighbours tie where they were called alike as often as apart, or are equally strong and as
+   often above as below.
 
 So answers without a contradiction give exactly the order that was meant. The browser's twin,
 `static/js/rankings/comparison-order.js`, also chooses the pairs to ask about.
@@ -66,16 +67,17 @@ def order_from_comparisons(ids: Iterable[str], answers: Iterable[Answer]) -> tup
 
     Answers of ids that are not among them are left aside. Raises InvalidRanking (doubled ids, an answer that is none).
     """
-    names = [group[0] for group in check_groups([id_] for id_ in ids)]
+    names = [group[0] for group in check_groups([[id_] for id_ in ids])]
     evidence = _evidence_of(names, _checked(answers))
     strength = [math.floor(x / RESOLUTION + 0.5) for x in _strengths(evidence)]
     groups: list[list[int]] = []
     for component in _components(evidence, strength):
-        if evidence.wins[np.ix_(component, component)].any():
+        is_at_odds = evidence.wins[np.ix_(component, component)].any()
+        if not is_at_odds or len({strength[i] for i in component}) == 1:
+            groups.append(component)
+        else:
             line = _least_contradicted(evidence.wins, _by_strength(component, strength))
             groups += _tied(evidence, strength, line)
-        else:
-            groups.append(component)
     return tuple(tuple(names[i] for i in group) for group in groups)
 
 
@@ -184,9 +186,10 @@ def _tied(evidence: _Evidence, strength: Sequence[int], line: Sequence[int]) -> 
             groups[-1].append(i)
         else:
             groups.append([i])
-    return groups
+    return [sorted(group) for group in groups]
 
 
 def _is_tie(evidence: _Evidence, strength: Sequence[int], i: int, j: int) -> bool:
-    alike, apart = evidence.alike[i, j], evidence.wins[i, j] + evidence.wins[j, i]
-    return strength[i] == strength[j] or bool(alike > 0 and alike >= apart)
+    alike, above, below = evidence.alike[i, j], evidence.wins[i, j], evidence.wins[j, i]
+    is_open = strength[i] == strength[j] and above == below
+    return bool(is_open or (alike > 0 and alike >= above + below))

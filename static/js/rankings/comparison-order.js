@@ -59,7 +59,7 @@ export function orderOf(evidence, { means } = strengthsOf(evidence)) {
   const strength = means.map((x) => Math.floor(x / RESOLUTION + 0.5));
   return componentsOf(evidence, strength).flatMap((component) => {
     const isAtOdds = component.some((i) => component.some((j) => at(wins, i, j) > 0));
-    if (!isAtOdds) return [component];
+    if (!isAtOdds || component.every((i) => strength[i] === strength[Number(component[0])])) return [component];
     return tied(evidence, strength, leastContradicted(wins, byStrength(component, strength)));
   });
 }
@@ -210,18 +210,21 @@ function bestPlace(wins, line, place) {
   return best;
 }
 
-/** Neighbours tie where they were called alike as often as not, or where nothing tells them apart. @param {Evidence} evidence @param {number[]} strength @param {number[]} line @returns {number[][]} */
+/** Neighbours tie where they were called alike as often as apart, or where nothing tells them apart. @param {Evidence} evidence @param {number[]} strength @param {number[]} line @returns {number[][]} */
 function tied({ wins, alike }, strength, line) {
   /** @type {number[][]} */
   const groups = [];
   for (const i of line) {
     const above = groups.at(-1)?.at(-1);
-    const isTie = (/** @type {number} */ j) =>
-      strength[i] === strength[j] || (at(alike, i, j) > 0 && at(alike, i, j) >= at(wins, i, j) + at(wins, j, i));
+    const isTie = (/** @type {number} */ j) => {
+      const [upper, lower] = [at(wins, j, i), at(wins, i, j)];
+      const isOpen = strength[i] === strength[j] && upper === lower;
+      return isOpen || (at(alike, i, j) > 0 && at(alike, i, j) >= upper + lower);
+    };
     if (above !== undefined && isTie(above)) groups.at(-1)?.push(i);
     else groups.push([i]);
   }
-  return groups;
+  return groups.map((group) => group.sort((i, j) => i - j));
 }
 
 /** @param {number[][]} table @param {number} i @param {number} j */
