@@ -53,7 +53,7 @@ export function stateSentence({ nCards, canOrder, counts, differs, onItsWay, tro
   if (onItsWay.length > 0)
     return trouble ? waitingSentence(onItsWay, trouble, lasts) : `Sending the order of ${yours(onItsWay)} …`;
   if (differs.length === 0 && Object.keys(counts).length > 0)
-    return `✓ Confirmed: ${countsWords(counts)}. You can still change it and confirm again.`;
+    return `✓ Confirmed: ${countsWords(counts)}. You can still change it.`;
   if (!canOrder) return "One attempt alone needs no order. Go on, or play more.";
   const changed = differs.filter((outcome) => counts[outcome] !== undefined);
   if (changed.length === 0) return "An order counts once you confirm it.";
@@ -64,8 +64,12 @@ export function stateSentence({ nCards, canOrder, counts, differs, onItsWay, tro
 /** "version 2 of your successes and version 1 of your failures count". @param {Partial<Record<Outcome, number>>} counts */
 export function countsWords(counts) {
   const each = /** @type {[Outcome, number][]} */ (Object.entries(counts));
-  const words = each.map(([outcome, version]) => `version ${version} of your ${PLURAL[outcome]}`);
-  return `${words.join(" and ")} ${words.length === 1 ? "counts" : "count"}`;
+  const versions = new Set(each.map(([, version]) => version));
+  const words = each.map(([outcome, version], i) => {
+    const isSaid = i > 0 && versions.size === 1;
+    return `${isSaid ? "" : `version ${version} `}of your ${PLURAL[outcome]}`;
+  });
+  return `${words.join(" and ")} ${versions.size === 1 ? "counts" : "count"}`;
 }
 
 /** @param {Outcome[]} outcomes @param {Trouble} trouble @param {boolean} lasts */
