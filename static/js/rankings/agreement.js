@@ -6,8 +6,8 @@ import { agreementSentence, capital, PLURAL, swappedSentence, watchWords } from 
 import { displayRanks, flat } from "#js/rankings/order.js";
 
 /** @typedef {import("#js/rankings/sitting-state.js").Outcome} Outcome */
-/** @typedef {import("#js/rankings/versions.js").Ranking} Ranking */
-/** @typedef {import("#js/rankings/versions.js").Newest} Newest */
+/** @typedef {import("#js/rankings/standing.js").Ranking} Ranking */
+/** @typedef {import("#js/rankings/standing.js").Newest} Newest */
 /** @typedef {import("#js/rankings/confirm-words.js").Agreement} Agreement */
 
 /** So many swapped pairs are shown before somebody asks for all. */

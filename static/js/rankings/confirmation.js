@@ -103,9 +103,9 @@ export class Confirmation {
 
   /** @param {Outcome[]} untouched */
   async #areTheirs(untouched) {
-    const isYes = await askUntouched(untouched, this.#sitting.state.way);
-    if (!isYes) this.#onFocus(flat(this.#sitting.orders[untouched[0]])[0]);
-    return isYes;
+    const answer = await askUntouched(untouched, this.#sitting.state.way);
+    if (answer === "no") this.#onFocus(flat(this.#sitting.orders[untouched[0]])[0]);
+    return answer === "yes";
   }
 
   /** @param {Outcome} outcome @param {boolean} untouched @returns {Promise<Answer>} */
@@ -132,6 +132,8 @@ export class Confirmation {
     this.#show();
     try {
       const { ranking } = await sending;
+      // It had arrived long ago, and its answer got lost; meanwhile another one was confirmed.
+      if (ranking.counts === false) return { outcome, untouched, error: overtaken() };
       this.#newest[outcome] = ranking;
       this.#refusals.forget(outcome);
       return { outcome, untouched, ranking };
@@ -208,4 +210,8 @@ export class Confirmation {
     if (focused === confirm && confirm.hidden && isConfirmed) learn.focus();
     if (focused === learn && learn.hidden) confirm.focus();
   }
+}
+
+function overtaken() {
+  return new ApiError({ status: 409, code: "stale_version", message: "Another order counts by now." });
 }

@@ -17,10 +17,10 @@ import { displayRanks, flat } from "#js/rankings/order.js";
 /** From so many cards on, those that stand alike can be left out. */
 const MANY = 8;
 
-/** @param {Outcome[]} outcomes @param {Way} way @returns {Promise<boolean>} whether it is theirs */
-export async function askUntouched(outcomes, way) {
+/** @param {Outcome[]} outcomes @param {Way} way @returns {Promise<string>} "yes", "no"; empty if the question was left */
+export function askUntouched(outcomes, way) {
   byId("untouched-text").textContent = untouchedSentence(outcomes, way);
-  return (await answerOf("untouched")) === "yes";
+  return answerOf("untouched");
 }
 
 /**

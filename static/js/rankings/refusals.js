@@ -77,10 +77,15 @@ export class Refusals {
   /** @param {Answer} answer @returns {Promise<string>} */
   async #explainOne({ outcome, untouched, error }) {
     if (error?.code === "stale_version") return this.#decide(outcome, untouched);
-    if (error?.code === "untouched" && (await askUntouched([outcome], this.#parts.sitting.state.way)))
-      return this.#sayOf(await this.#parts.send(outcome, true));
-    if (error?.code === "untouched") return words.refusedSentence(outcome, "You said that the order is not yours yet.");
+    if (error?.code === "untouched") return this.#askAfterAll(outcome);
     return words.refusedSentence(outcome, error?.message ?? "");
+  }
+
+  /** The server knows better that nothing was moved. @param {Outcome} outcome */
+  async #askAfterAll(outcome) {
+    if ((await askUntouched([outcome], this.#parts.sitting.state.way)) === "yes")
+      return this.#sayOf(await this.#parts.send(outcome, true));
+    return words.refusedSentence(outcome, "You said that the order is not yours yet.");
   }
 
   /** Another order was confirmed after this page was opened: the person says which counts. @param {Outcome} outcome @param {boolean} untouched */

@@ -6,7 +6,7 @@ import { flat, isSame } from "#js/rankings/order.js";
 /** @typedef {import("#js/rankings/sitting-state.js").Outcome} Outcome */
 /** @typedef {import("#js/rankings/sitting-state.js").Way} Way */
 /** @typedef {import("#js/rankings/sitting-state.js").Content} Content */
-/** @typedef {{outcome: Outcome, order: Order, version: number, created_at: string, way?: Way, given?: any, untouched?: boolean | null}} Ranking */
+/** @typedef {{outcome: Outcome, order: Order, version: number, created_at: string, way?: Way, given?: any, untouched?: boolean | null, counts?: boolean}} Ranking */
 /** @typedef {Record<Outcome, Ranking | null>} Newest */
 /** @typedef {{present: Content, way: Way}} Stated */
 

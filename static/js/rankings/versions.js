@@ -7,9 +7,8 @@ import { capital, PLURAL, takenAgainSentence, versionsSummary, versionWords } fr
 import { flat, isSame, reconcile } from "#js/rankings/order.js";
 
 /** @typedef {import("#js/rankings/sitting-state.js").Outcome} Outcome */
-/** @typedef {import("#js/rankings/order.js").Order} Order */
-/** @typedef {{outcome: Outcome, order: Order, version: number, created_at: string, way?: any, untouched?: boolean | null}} Ranking */
-/** @typedef {Partial<Record<Outcome, Ranking | null>>} Newest */
+/** @typedef {import("#js/rankings/standing.js").Ranking} Ranking */
+/** @typedef {import("#js/rankings/standing.js").Newest} Newest */
 
 export class Versions {
   #worldId;
@@ -17,7 +16,7 @@ export class Versions {
   #cards;
   #panel = /** @type {HTMLDetailsElement} */ (byId("versions"));
   /** @type {Newest} */
-  #newest = {};
+  #newest = { success: null, failure: null };
   /** What the open panel shows. */
   #shown = "";
 
