@@ -2,11 +2,16 @@
 
 import itertools
 import json
+import os
+import signal
+import time
+from pathlib import Path
 from typing import Any
 
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, Playwright, expect
 
 from tests.browser import walk
+from tests.browser.conftest import CHROMIUM_FLAGS, find_chromium
 from tests.live_server import LiveServer
 
 READ = """async (name) => {
@@ -89,3 +94,41 @@ def expect_turns(tabs: list[Page]) -> None:
     turns = sorted(tuple(turn) for page in tabs for turn in page.evaluate("window.turns"))
     assert len(turns) == 2 * len(tabs)
     assert all(end <= begin for (_, end), (begin, _) in itertools.pairwise(turns))
+
+
+class KillableBrowser:
+    """A Chromium with a profile on the disk, whose main process can be killed."""
+
+    def __init__(self, playwright: Playwright, folder: Path, address: str) -> None:
+        self._playwright, self._folder, self._address = playwright, folder, address
+
+    def open(self) -> Page:
+        for lock in self._folder.glob("Singleton*"):  # the killed one could not remove its own
+            lock.unlink()
+        self._context = self._playwright.chromium.launch_persistent_context(
+            self._folder, executable_path=find_chromium(), args=CHROMIUM_FLAGS, base_url=self._address
+        )
+        return self._context.pages[0]
+
+    def kill(self) -> None:
+        processes = self._processes()
+        main = [pid for pid, arguments in processes if not any(one.startswith(b"--type=") for one in arguments)]
+        assert len(main) == 1
+        os.kill(main[0], signal.SIGKILL)
+        while self._processes():
+            time.sleep(0.02)
+        self._context.close()
+
+    def close(self) -> None:
+        self._context.close()
+
+    def _processes(self) -> list[tuple[int, list[bytes]]]:
+        found = []
+        for entry in Path("/proc").iterdir():
+            try:
+                arguments = (entry / "cmdline").read_bytes().split(b"\0") if entry.name.isdigit() else []
+            except OSError:
+                continue  # it ended while we looked
+            if f"--user-data-dir={self._folder}".encode() in arguments:
+                found.append((int(entry.name), arguments))
+        return found

@@ -3,17 +3,15 @@
 Contexts whose server goes away are not watched: the browser itself reports the requests that failed on its console.
 """
 
-import os
-import signal
-import time
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import BrowserContext, Page, Playwright, expect
+from playwright.sync_api import BrowserContext, Playwright, expect
 
 from tests.browser import walk
-from tests.browser.conftest import CHROMIUM_FLAGS, find_chromium, watched
+from tests.browser.conftest import watched
 from tests.browser.saving import (
+    KillableBrowser,
     begin_again,
     expect_stored,
     expect_sync,
@@ -56,44 +54,6 @@ def test_six_attempts_arrive_once_each_though_the_server_was_away_when_the_page_
     assert len(stored(home, world_id)) == 6
     expect_stored(home, parcels)
     assert all(ms > 0 for ms in parcels[0]["body"]["step_ms"])
-
-
-class KillableBrowser:
-    """A Chromium with a profile on the disk, whose main process can be killed."""
-
-    def __init__(self, playwright: Playwright, folder: Path, address: str) -> None:
-        self._playwright, self._folder, self._address = playwright, folder, address
-
-    def open(self) -> Page:
-        for lock in self._folder.glob("Singleton*"):  # the killed one could not remove its own
-            lock.unlink()
-        self._context = self._playwright.chromium.launch_persistent_context(
-            self._folder, executable_path=find_chromium(), args=CHROMIUM_FLAGS, base_url=self._address
-        )
-        return self._context.pages[0]
-
-    def kill(self) -> None:
-        processes = self._processes()
-        main = [pid for pid, arguments in processes if not any(one.startswith(b"--type=") for one in arguments)]
-        assert len(main) == 1
-        os.kill(main[0], signal.SIGKILL)
-        while self._processes():
-            time.sleep(0.02)
-        self._context.close()
-
-    def close(self) -> None:
-        self._context.close()
-
-    def _processes(self) -> list[tuple[int, list[bytes]]]:
-        found = []
-        for entry in Path("/proc").iterdir():
-            try:
-                arguments = (entry / "cmdline").read_bytes().split(b"\0") if entry.name.isdigit() else []
-            except OSError:
-                continue  # it ended while we looked
-            if f"--user-data-dir={self._folder}".encode() in arguments:
-                found.append((int(entry.name), arguments))
-        return found
 
 
 @pytest.mark.skipif(not Path("/proc/self").exists(), reason="finds the browser's processes in /proc")

@@ -136,7 +136,7 @@ export class Dispatch {
   /** @param {News} news */
   hear(news) {
     const { kind, parcel, status = 0, retryAfterMs = null } = news;
-    if (kind === "kept" || kind === "forgotten") return;
+    if (kind === "kept" || kind === "forgotten") return this.#parts.onChange();
     this.#trouble = kind === "waiting" ? { status, retryAfterMs } : null;
     if (parcel.kind === "log" && parcel.sittingId === this.#book.id) this.#hearOfLog(news, parcel);
     if (parcel.kind === "ranking" && parcel.worldId === this.#book.worldId) this.#hearOfOrder(news, parcel);

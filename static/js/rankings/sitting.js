@@ -4,6 +4,7 @@
  * a night in between change nothing: the same sitting goes on, with its undo and redo.
  */
 
+import { Guard } from "#js/lib/guard.js";
 import { openOutbox } from "#js/lib/outbox.js";
 import { isOfRankings, logId } from "#js/lib/parcels.js";
 import { uuid } from "#js/lib/uuid.js";
@@ -84,6 +85,8 @@ export class Sitting {
     const outbox = openOutbox((news) => sitting?.hear(news));
     await outbox.recover();
     sitting = await Sitting.of(data, { journal: new Journal(), outbox });
+    const guard = new Guard(() => outbox.nUnstored > 0);
+    sitting.subscribeSaving(() => guard.look());
     outbox.watch(new AbortController().signal);
     return sitting;
   }

@@ -2,6 +2,7 @@
 
 import { announceToo } from "#js/lib/announce.js";
 import { byId } from "#js/lib/dom.js";
+import { Guard } from "#js/lib/guard.js";
 import { savingNews, savingWords } from "#js/worlds/saving-words.js";
 
 /** @typedef {import("#js/lib/outbox.js").News} News */
@@ -15,7 +16,7 @@ export class SavingBadge {
   #trouble = null;
   /** @type {import("#js/worlds/saving-words.js").SavingWords["sync"]} */
   #sync = "saved";
-  #isGuarding = false;
+  #guard = new Guard(() => this.#nUnstored() > 0);
 
   /** @param {() => number} nUnstored parcels that live in this page alone */
   constructor(nUnstored) {
@@ -55,7 +56,7 @@ export class SavingBadge {
     byId("saving").textContent = words.sentence;
     byId("saving").hidden = words.sentence === "";
     this.#tell(words);
-    this.#guard(this.#nUnstored() > 0);
+    this.#guard.look();
   }
 
   /** @param {import("#js/worlds/saving-words.js").SavingWords} words */
@@ -64,17 +65,4 @@ export class SavingBadge {
     this.#sync = words.sync;
     if (news) announceToo(news);
   }
-
-  /** Ask before the page is closed, but only while that would lose something. @param {boolean} isNeeded */
-  #guard(isNeeded) {
-    if (isNeeded === this.#isGuarding) return;
-    this.#isGuarding = isNeeded;
-    if (isNeeded) window.addEventListener("beforeunload", ask);
-    else window.removeEventListener("beforeunload", ask);
-  }
-}
-
-/** @param {Event} event */
-function ask(event) {
-  event.preventDefault();
 }
