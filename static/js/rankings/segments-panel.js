@@ -159,12 +159,9 @@ export class SegmentsPanel {
   #showAttempt(ids) {
     const { showTotals } = this.#parts;
     const [walk, stretches] = [this.#walk, this.#stretches];
-    const nSteps = walk.actions.length;
-    const marked = `${markedWords(stretches)}${stretches.length > 0 ? `, score ${signed(scoreOf(stretches, nSteps), 2)}` : ""}`;
+    const score = stretches.length > 0 ? `, score ${signed(this.#scoreOf(walk.id), 2)}` : "";
     byId("stretches-title").textContent = `Attempt ${ids.indexOf(walk.id) + 1} of ${ids.length}`;
-    byId("stretches-words").textContent = `${cardWords(walk, showTotals)}, ${marked}`;
-    byId("stretches-none").hidden = nSteps > 0;
-    byId("stretches-strip").hidden = nSteps === 0;
+    byId("stretches-words").textContent = `${cardWords(walk, showTotals)}, ${markedWords(stretches)}${score}`;
     const runs = stretches.map((one) => `${runWords(one)} ${one.kind}`);
     this.#board.label = `The path of this attempt${runs.length > 0 ? `: ${runs.join(", ")}` : ", nothing marked"}`;
   }
