@@ -49,11 +49,7 @@ def show_rank(request: Request, world: WorldFromPath, database: DatabaseFromApp,
             "success": _shuffled_kept(rows, visitor_id, world.id, "success"),
             "failure": _shuffled_kept(rows, visitor_id, world.id, "failure"),
         },
-        "options": {
-            "show_totals": request.app.state.settings.show_totals,
-            "show_agreement": True,
-            "ways": ["lists", "pairwise", "magnitude", "segments"],
-        },
+        "options": _options(request.app.state.settings, world),
     }
     return render(request, "rankings/rank.html", RankPage(path=path, world=data["world"], data=data))
 

@@ -1,12 +1,14 @@
 """Bodies that no honest client sends: each is refused in our shape, none is stored, none is repeated."""
 
 import json
+import uuid
 
 import pytest
 from sqlalchemy import text
 
 from app.worlds.schemas import WorldIn
 from tests.factories import attempt, make_demonstration, make_world, record_of
+from tests.sitting import Sitting
 
 MARK = "<script>alert(7)</script>"
 
@@ -52,7 +54,7 @@ ODD_VALUES: list[object] = [
     [10**400], ["x"] * 1000, [True], [{}], {"id": "x"}, "8f14e45f-ceea-467f-a1d2-0c6f1f9b2a11\n",
     "\u202e", "é" * 10_000,
 ]  # fmt: skip
-TABLES = ("world", "visitor", "demonstration", "ranking", "run")
+TABLES = ("world", "visitor", "demonstration", "ranking", "run", "sitting", "ranking_event")
 
 
 def n_rows(client) -> dict[str, int]:
@@ -84,6 +86,7 @@ def test_hostile_bytes_to_every_call(client, raw):
     assert_refused(post_raw(client, "/api/v1/worlds", raw))
     assert_refused(post_raw(client, f"{root}/demonstrations", raw))
     assert_refused(post_raw(client, f"{root}/rankings/success", raw, "PUT"))
+    assert_refused(post_raw(client, f"{root}/sittings/{uuid.uuid4()}/events", raw))
     assert_refused(post_raw(client, f"{root}/runs", raw))
     assert post_raw(client, f"/api/v1/demonstrations/{played['id']}/discard", raw, "PUT").status_code < 500
     assert n_rows(client) == before
@@ -97,6 +100,7 @@ def test_odd_values_in_every_field(client):
     bodies = {
         ("POST", f"{root}/demonstrations"): attempt(world),
         ("PUT", f"{root}/rankings/success"): {"order": [[played["id"]]], "confirmed": True},
+        ("POST", f"{root}/sittings/{uuid.uuid4()}/events"): {"events": [{}]},
     }
     for (method, url), good in bodies.items():
         for name in good:
@@ -107,6 +111,75 @@ def test_odd_values_in_every_field(client):
                         assert_refused(response)
     after = n_rows(client)
     assert after == before | {"ranking": after["ranking"]}
+
+
+def test_odd_values_beside_an_order_are_refused(client):
+    world = make_world(client)
+    order = [[make_demonstration(client, world)["id"]]]
+    sitting = {"id": str(uuid.uuid4()), "events": []}
+    for name, fine in {"based_on": (None, 0), "untouched": (True, False), "sitting": (None,)}.items():
+        odd = [value for value in ODD_VALUES if not any(value is one for one in fine)]
+        bodies = [{name: value} for value in odd]
+        bodies += [{"sitting": sitting | {part: value}} for part in ("id", "events", "n") for value in odd]
+        for body in bodies:
+            told = json.dumps({"order": order, "confirmed": True} | body).encode()
+            assert_refused(post_raw(client, f"/api/v1/worlds/{world['id']}/rankings/success", told, "PUT"))
+    assert n_rows(client)["ranking"] == n_rows(client)["sitting"] == 0
+
+
+EVENT_PATHS = [
+    ("begin", "n"), ("begin", "orders"), ("begin", "orders", "success"), ("begin", "orders", "success", 0),
+    ("begin", "orders", "success", 0, 0), ("begin", "from"), ("begin", "from", "failure"),
+    ("begin", "based_on", "success"), ("begin", "way"), ("begin", "client"), ("begin", "client", "agent"),
+    ("begin", "client", "hold_to_move"), ("place", "n"), ("place", "at_ms"), ("place", "type"), ("place", "means"),
+    ("place", "outcome"), ("place", "id"), ("place", "group"), ("place", "joins"), ("place", "__proto__"),
+    ("set", "order"), ("set", "order", 0), ("set", "by"), ("swap", "with"), ("answer", "said"), ("gap", "value"),
+    ("stretch", "from"), ("stretch", "to"), ("stretch", "kind"), ("cards", "added"), ("cards", "removed"),
+    ("resumed", "away_ms"), ("confirm", "untouched"),
+]  # fmt: skip
+
+
+def a_log_of_everything(client, world):
+    a, b = (make_demonstration(client, world)["id"] for _ in range(2))
+    tried, here = Sitting(client, world), {"outcome": "success"}
+    tried.begin()
+    tried.do("place", **here, id=a, group=0, joins=False)
+    tried.do("set", **here, order=[[b], [a]], by="score")
+    tried.do("swap", **here, id=a, **{"with": b})
+    tried.do("answer", **here, a=a, b=b, said="alike")
+    tried.do("gap", **here, above=a, below=b, value=5)
+    tried.do("stretch", id=a, **{"from": 1, "to": 2}, kind="good")
+    tried.do("cards", **here, added=[], removed=[])
+    tried.do("resumed", away_ms=5.5)
+    tried.do("confirm", **here, untouched=False)
+    return tried
+
+
+def test_odd_values_in_an_event_are_stored_as_they_are_or_refused(client):
+    world = make_world(client)
+    tried = a_log_of_everything(client, world)
+    log = {event["type"]: event for event in tried.log}
+    n_stored = 0
+    for kind, *path in EVENT_PATHS:
+        for value in ODD_VALUES:
+            tried.id = str(uuid.uuid4())
+            events = [*tried.log[: log[kind]["n"]], replaced(log[kind], path, value)]
+            url = f"/api/v1/worlds/{world['id']}/sittings/{tried.id}/events"
+            response = post_raw(client, url, json.dumps({"events": events}).encode())
+            if response.status_code == 200:
+                n_stored += len(events)
+                assert last_event(client, tried.id) == events[-1]
+            else:
+                assert_refused(response)
+    assert n_rows(client)["ranking_event"] == n_stored
+    table = client.get(f"/api/v1/worlds/{world['id']}/ranking-events.csv")
+    assert (table.status_code, len(table.text.splitlines())) == (200, 1 + n_stored)
+
+
+def last_event(client, sitting_id):
+    with client.app.state.database.read() as session:
+        asked = text("SELECT event FROM ranking_event WHERE sitting_id = :id ORDER BY n DESC LIMIT 1")
+        return json.loads(session.scalar(asked, {"id": sitting_id}))
 
 
 RECORD_PATHS = [

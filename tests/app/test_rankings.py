@@ -1,10 +1,16 @@
 """Rankings through the API: exactly what is kept, every version kept."""
 
+import json
+import re
 import uuid
 
 import pytest
+from pydantic import ValidationError
 from sqlalchemy import text
 
+from app.config import WAYS, Settings
+from app.main import create_app
+from tests.conftest import make_settings, open_client
 from tests.factories import make_demonstration, make_ranking, make_world
 
 
@@ -101,3 +107,40 @@ def test_more_than_forty_can_be_ranked(client, world):
 
 def test_there_are_two_outcomes(client, world):
     assert put(client, world, [], outcome="draw").status_code == 422
+
+
+def test_every_version_can_be_looked_at_newest_first(client, other_client, world):
+    a, b = (make_demonstration(client, world)["id"] for _ in range(2))
+    made = [make_ranking(client, world, "success", order) for order in ([a, b], [b, a])]
+    url = f"/api/v1/worlds/{world['id']}/rankings/success/versions"
+    assert client.get(url).json() == [made[1], made[0] | {"counts": False}]
+    assert other_client.get(url).json() == client.get(url.replace("success", "failure")).json() == []
+
+
+def options_of(client, world):
+    page = client.get(f"/worlds/{world['id']}/rank").text
+    island = re.search(r'<script type="application/json" id="page-data"[^>]*>(.*?)</script>', page, re.DOTALL)
+    return json.loads(island[1])["options"]
+
+
+def test_the_page_says_which_ways_there_are_and_what_is_shown(client, world):
+    assert options_of(client, world) == {"show_totals": True, "show_agreement": True, "ways": list(WAYS)}
+    fixed = make_world(client, rank_by="segments")
+    assert options_of(client, fixed)["ways"] == ["segments"]
+
+
+def test_a_study_chooses_the_ways_and_whether_agreement_is_shown(settings):
+    told = make_settings(settings.data_dir, rank_by=("pairwise", "lists"), show_agreement=False)
+    with open_client(create_app(told)) as client:
+        options = options_of(client, make_world(client))
+    assert options == {"show_totals": True, "show_agreement": False, "ways": ["pairwise", "lists"]}
+
+
+def test_ways_come_from_the_environment_as_a_list_of_words(monkeypatch):
+    for told, ways in {"pairwise": ("pairwise",), " lists, magnitude": ("lists", "magnitude")}.items():
+        monkeypatch.setenv("IRLFR_RANK_BY", told)
+        assert Settings().rank_by == ways
+    for wrong in ("", "lists,lists", "best", "lists,,pairwise"):
+        monkeypatch.setenv("IRLFR_RANK_BY", wrong)
+        with pytest.raises(ValidationError):
+            Settings()
