@@ -123,6 +123,20 @@ test("attempts that came and went meanwhile join and leave, and nothing else mov
   assert.deepEqual(logOf(browser, second).at(-1).added, ["d"]);
 });
 
+test("a stranger finds nothing of it, and leaves it as it was", async () => {
+  const browser = new Browser();
+  const first = await busy(browser);
+  first.close();
+  const { cards } = browser;
+  browser.cards = { success: ["s"], failure: [] };
+  const second = await browser.open("second");
+  assert.equal(second.order, "s");
+  second.close();
+  browser.cards = cards;
+  browser.entries.delete(second.sitting.id);
+  assert.equal((await browser.open("third")).order, first.order);
+});
+
 test("a way that is no longer offered makes room for one that is", async () => {
   const browser = new Browser();
   (await busy(browser)).close();

@@ -77,6 +77,13 @@ function followed(state, event) {
   }
 }
 
+/** Whether the visitor who is here has none of its attempts, not even a discarded one. @param {State} state @param {any} data */
+export function isStrange({ present: { orders } }, data) {
+  const known = new Set(data.demonstrations.map((/** @type {any} */ one) => one.id));
+  const ids = OUTCOMES.flatMap((outcome) => flat(orders[outcome]));
+  return ids.length > 0 && !ids.some((id) => known.has(id));
+}
+
 /** Whether the newest orders that are confirmed are those of this sitting, as it stands. @param {string} id @param {State} state @param {any} data */
 export function isAllConfirmed(id, { present }, data) {
   const filled = OUTCOMES.filter((outcome) => present.orders[outcome].length > 0);

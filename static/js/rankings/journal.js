@@ -97,6 +97,11 @@ export class Journal {
     if (entry && events.length > 0) this.#lastStraw.keep([{ id: entry.id, entry, events }]);
   }
 
+  /** It stays as it is, for whom it may concern. @param {string} id */
+  leave(id) {
+    this.#belongings.giveBack(nameOf(id));
+  }
+
   /** The server would not have its log. @param {Entry} entry */
   setAside(entry) {
     void this.#shelf.put({ ...entry, isSetAside: true }, []).catch(() => {});

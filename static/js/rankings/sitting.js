@@ -25,7 +25,7 @@ import { apply, beginState, SILENT } from "#js/rankings/sitting-state.js";
 
 /**
  * @typedef {object} Around   what a sitting stands in
- * @property {Pick<Journal, "keep" | "rescue" | "setAside" | "take" | "drop" | "lasts">} journal
+ * @property {Pick<Journal, "take" | "keep" | "rescue" | "leave" | "setAside" | "drop" | "lasts">} journal
  * @property {Pick<import("#js/lib/outbox.js").Outbox, "add" | "all" | "forget">} outbox
  * @property {(run: () => void, ms: number) => void} [wait]
  * @property {() => number} [now]        monotonic ms
@@ -109,6 +109,11 @@ export class Sitting {
       const events = log.slice(acknowledged);
       if (events.length > 0) await around.outbox.add({ kind: "log", id: logId(id), worldId, sittingId: id, events });
       around.journal.drop(id);
+      return null;
+    }
+    // Another person's, or one's own from before the cookie was lost: it is not for this page to change.
+    if (beginning.isStrange(state, data)) {
+      around.journal.leave(id);
       return null;
     }
     const book = { id, worldId, log, acknowledged: Math.min(acknowledged, log.length), versions: { ...versions } };
