@@ -5,9 +5,11 @@ import { announce } from "#js/lib/announce.js";
 import { byId } from "#js/lib/dom.js";
 import { isTaken, letterOf } from "#js/lib/keys.js";
 import { pageData } from "#js/lib/page-data.js";
+import { CompareDialog } from "#js/rankings/compare-dialog.js";
 import { Confirmation } from "#js/rankings/confirmation.js";
 import { RankLists } from "#js/rankings/lists.js";
 import { MagnitudePanel } from "#js/rankings/magnitude-panel.js";
+import { PairwisePanel } from "#js/rankings/pairwise-panel.js";
 import { SegmentsPanel } from "#js/rankings/segments-panel.js";
 import { Sitting } from "#js/rankings/sitting.js";
 
@@ -33,12 +35,18 @@ class RankPage {
   #confirmation;
   #magnitude;
   #segments;
+  #pairwise;
+  #comparing;
 
   /** @param {Parts} parts */
   constructor(parts) {
     this.#sitting = parts.sitting;
-    const onCompare = (/** @type {Outcome} */ outcome, /** @type {string} */ a, /** @type {string} */ b) =>
-      void this.#sitting.do({ type: "compare", means: "page", outcome, a, b });
+    const onCompare = (
+      /** @type {Outcome} */ outcome,
+      /** @type {string} */ a,
+      /** @type {string} */ b,
+      /** @type {Means} */ means = "button",
+    ) => this.#comparing.open(outcome, a, b, means);
     const onWatch = (/** @type {string} */ id, /** @type {Means} */ means) =>
       void this.#sitting.do({ type: "watch", means, id });
     this.#lists = new RankLists({ ...parts, root: this.#root, onWatch, onCompare });
@@ -46,6 +54,8 @@ class RankPage {
     this.#confirmation = new Confirmation({ ...parts, onCompare, onFocus });
     this.#magnitude = new MagnitudePanel({ ...parts, lists: this.#lists });
     this.#segments = new SegmentsPanel(parts);
+    this.#pairwise = new PairwisePanel(parts);
+    this.#comparing = new CompareDialog({ ...parts, lists: this.#lists });
   }
 
   start() {
@@ -54,6 +64,8 @@ class RankPage {
     this.#confirmation.start(signal);
     this.#magnitude.start();
     this.#segments.start(signal);
+    this.#pairwise.start(signal);
+    this.#comparing.start(signal);
     this.#root.addEventListener("click", (event) => this.#onClick(event), { signal });
     this.#root.addEventListener("change", (event) => this.#onChange(event), { signal });
     document.addEventListener("keydown", (event) => this.#onKey(event), { signal });
