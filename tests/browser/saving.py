@@ -1,5 +1,6 @@
 """What the tests of saving share: a look into the browser's storage and into the server's."""
 
+import contextlib
 import itertools
 import json
 import os
@@ -8,7 +9,7 @@ import time
 from pathlib import Path
 from typing import Any
 
-from playwright.sync_api import Page, Playwright, expect
+from playwright.sync_api import Error, Page, Playwright, expect
 
 from tests.browser import walk
 from tests.browser.conftest import CHROMIUM_FLAGS, find_chromium
@@ -117,7 +118,8 @@ class KillableBrowser:
         os.kill(main[0], signal.SIGKILL)
         while self._processes():
             time.sleep(0.02)
-        self._context.close()
+        with contextlib.suppress(Error):  # the driver may have noticed by itself
+            self._context.close()
 
     def close(self) -> None:
         self._context.close()
