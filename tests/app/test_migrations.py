@@ -20,6 +20,11 @@ NEW_ROW = (
     " 'out_of_time', '2026-11-22 00:00:00', 'old', 1, '[]')"
 )
 
+OLD_RANKING = (
+    'INSERT INTO ranking (world_id, visitor_id, outcome, version, "order", start_order, created_at)'
+    " VALUES ('w', 'v', 'failure', 1, '[[\"old\"]]', '[\"old\"]', '2026-11-22 00:00:00')"
+)
+
 
 @pytest.fixture
 def told(tmp_path):
@@ -71,6 +76,18 @@ def test_who_ran_out_of_time_has_given_up_where_that_is_not_known(told, database
         ("old", "gave_up"),
         ("new", "gave_up"),
     ]
+
+
+def test_an_order_from_before_was_given_by_lists_and_outlives_its_sitting_columns(told, database):
+    database.execute(OLD_RANKING)
+    command.upgrade(_alembic(told), "head")
+    asked = 'SELECT version, "order", way, given, sitting_id, n_events, untouched FROM ranking'
+    assert database.execute(asked).fetchall() == [(1, '[["old"]]', "lists", None, None, None, None)]
+    database.execute("INSERT INTO sitting VALUES ('s', 'v', 'w', 1, '2026-11-22')")
+    database.execute("INSERT INTO ranking_event VALUES ('s', 0, 'begin', 'page', 0.0, '{}', '2026-11-22')")
+    database.execute("UPDATE ranking SET sitting_id = 's', n_events = 1, way = 'pairwise'")
+    command.downgrade(_alembic(told), BEFORE_RECORDS)
+    assert database.execute('SELECT version, "order" FROM ranking').fetchall() == [(1, '[["old"]]')]
 
 
 @pytest.mark.parametrize(("good", "bad"), [("'old', 1", "'nobody', 1"), ("'out_of_time'", "'bored'")])
