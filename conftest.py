@@ -5,6 +5,7 @@ import pytest
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--screenshots", action="store_true", help="write screenshots of every page to docs/screenshots")
+    parser.addoption("--rank-orders", type=int, default=1, help="how many random orders each way to rank is given")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -87,38 +87,32 @@ def order_of(page: Page, outcome: str) -> list[str]:
 
 
 def drag_by_mouse(page: Page, card: Locator, target: Locator) -> None:
-    """As SortableJS needs it: in steps, with a nudge and a pause before letting go."""
-    card.scroll_into_view_if_needed()
-    start, end = card.locator(".card-grip").bounding_box(), target.bounding_box()
-    assert start is not None
-    assert end is not None
-    page.mouse.move(start["x"] + start["width"] / 2, start["y"] + start["height"] / 2)
+    """Straight up or down, to stand above another card; `tests/browser/ranking.py` does all else."""
+    (x, y), drop = drag_line(card, target)
+    page.mouse.move(x, y)
     page.mouse.down()
-    x, y = end["x"] + end["width"] / 2, end["y"] + end["height"] * 0.25
-    page.mouse.move(x, y, steps=12)
-    page.wait_for_timeout(120)
-    page.mouse.move(x, y + 1)
-    page.wait_for_timeout(60)
+    page.mouse.move(x, drop, steps=5)
     page.mouse.up()
 
 
 def drag_by_touch(page: Page, card: Locator, target: Locator) -> None:
+    (x, y), drop = drag_line(card, target)
+    finger = page.context.new_cdp_session(page)
+    finger.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [{"x": x, "y": y}]})
+    for part in range(1, 6):
+        points = [{"x": x, "y": y + (drop - y) * part / 5}]
+        finger.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": points})
+    finger.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    finger.detach()
+
+
+def drag_line(card: Locator, target: Locator) -> tuple[tuple[float, float], float]:
+    """Where the small board of a card is, and how high its hand goes."""
     card.scroll_into_view_if_needed()
     start, end = card.locator(".card-grip").bounding_box(), target.bounding_box()
     assert start is not None
     assert end is not None
-    x, y = start["x"] + start["width"] / 2, start["y"] + start["height"] / 2
-    rise = end["y"] + end["height"] * 0.25 - y
-    finger = page.context.new_cdp_session(page)
-    finger.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [{"x": x, "y": y}]})
-    page.wait_for_timeout(120)
-    for part in range(1, 13):
-        points = [{"x": x, "y": y + rise * part / 12}]
-        finger.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": points})
-        page.wait_for_timeout(20)
-    page.wait_for_timeout(120)
-    finger.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
-    finger.detach()
+    return (start["x"] + start["width"] / 2, start["y"] + start["height"] / 2), end["y"] + end["height"] * 0.25
 
 
 def confirm_order(page: Page) -> None:
