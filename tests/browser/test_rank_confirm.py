@@ -454,7 +454,7 @@ def test_agreement_is_told_after_confirming_as_scipy_reckons_it(visitor: Browser
             f"Of {figures['n_pairs']} pairs you put {figures['n_agreeing']} as their totals would"
         )
         expect(told).to_contain_text("Kendall’s tau-b: " + f"{figures['tau_b']:.2f}.".replace("-", "−"))
-        assert part.locator(".pair").count() == min(6, figures["n_swapped"])
+        assert part.locator(".swap").count() == min(6, figures["n_swapped"])
     move_first_down(page, "success")
     expect(panel).to_be_hidden()
 
@@ -482,7 +482,7 @@ def test_a_swapped_pair_can_be_watched(visitor: BrowserContext, base_url: str) -
     move_first_down(page, "failure")
     walk.confirm_order(page)
     page.locator("#agreement > summary").click()
-    pair = page.locator("#agreement section").first.locator(".pair").first
+    pair = page.locator("#agreement section").first.locator(".swap").first
     expect(pair.locator(".mini")).to_have_count(2)
     assert {card.get_attribute("data-id") for card in pair.locator(".mini").all()} == set(best_last[:2])
     watch = pair.get_by_role("button")

@@ -73,7 +73,7 @@ export class AgreementPanel {
     find(".agreement-words").textContent = agreementSentence(agreement);
     const { swapped } = agreement;
     find(".agreement-swapped").textContent = swappedSentence(outcome, swapped.length);
-    const [pairs, more] = [find(".pairs"), find(".pairs-more")];
+    const [pairs, more] = [find(".swaps"), find(".swaps-more")];
     const ranks = displayRanks(order);
     const show = (/** @type {[string, string][]} */ some) =>
       pairs.append(...some.map((pair) => this.#pair(outcome, pair, ranks)));
@@ -91,7 +91,7 @@ export class AgreementPanel {
   /** @param {Outcome} outcome @param {[string, string]} pair @param {Map<string, number>} ranks */
   #pair(outcome, [above, below], ranks) {
     const { part, find } = copyOf("agreement-pair");
-    const cards = find(".pair-cards");
+    const cards = find(".swap-cards");
     for (const id of [above, below]) {
       const card = this.#cards.make(id);
       card.querySelector(".mini-place")?.replaceChildren(`${ranks.get(id)}.`);
