@@ -54,28 +54,29 @@ def rank_page(context: BrowserContext, world_id: str) -> Page:
 
 def played(context: BrowserContext, address: str, *, seed: int = 5) -> str:
     """Three successes and three failures, by the API; the id of the world."""
-    client = client_of(context, address)
+    client = Api(context, address)
     world = client.post("/worlds", {"seed": seed})
     journey.play(client, journey.Grid(world), world["id"])
     return str(world["id"])
 
 
-def client_of(context: BrowserContext, address: str) -> walk.ContextClient:
-    page = context.new_page()
-    client = walk.ContextClient(page, address)
-    page.close()
-    return client
+class Api(walk.ContextClient):
+    """The API, asked with a visitor's cookies."""
+
+    def __init__(self, context: BrowserContext, address: str) -> None:
+        journey.Client.__init__(self, address)
+        self._requests = context.request
 
 
 def play_more(context: BrowserContext, address: str, world_id: str, *, n: int = 1) -> list[Json]:
     """Failures of one and two and three … steps, given up."""
-    client = client_of(context, address)
+    client = Api(context, address)
     told = [{"actions": [1] * steps, "step_ms": [1.0] * steps, "ending": "gave_up"} for steps in range(1, n + 1)]
     return [client.post(f"/worlds/{world_id}/demonstrations", {"id": str(uuid.uuid4())} | one) for one in told]
 
 
 def versions(context: BrowserContext, address: str, world_id: str, outcome: Outcome) -> list[Json]:
-    found: list[Json] = client_of(context, address).get(f"/worlds/{world_id}/rankings/{outcome}/versions")
+    found: list[Json] = Api(context, address).get(f"/worlds/{world_id}/rankings/{outcome}/versions")
     return found
 
 
@@ -184,7 +185,7 @@ def test_a_change_has_to_be_confirmed_again_unless_it_is_undone(visitor: Browser
     move_first_down(page, "failure")
     expect(page.locator("#rank")).to_have_attribute("data-confirmed", "false")
     expect(page.locator("#rank-state")).to_have_text(
-        "You have changed your failures since version 1. The new order counts once you confirm it."
+        "Your failures have changed since version 1. The new order counts once you confirm it."
     )
     expect(page.locator("#learn")).to_be_hidden()
     page.locator("#undo").click()
@@ -316,7 +317,7 @@ def test_an_attempt_discarded_meanwhile_leaves_and_the_order_of_the_others_stays
     page = rank_page(visitor, world_id)
     touch_both(page)
     first, second, third = walk.order_of(page, "success")
-    client_of(visitor, base_url).put(f"/demonstrations/{second}/discard", {})
+    Api(visitor, base_url).put(f"/demonstrations/{second}/discard", {})
     page.locator("#confirm").click()
     said = (
         "Confirmed: version 1 of your failures counts."
@@ -327,6 +328,19 @@ def test_an_attempt_discarded_meanwhile_leaves_and_the_order_of_the_others_stays
     page.get_by_role("button", name="Understood").press("Enter")
     expect(page.locator("#rank-told")).to_be_hidden()
     expect(page.locator("#confirm")).to_be_focused()
+    walk.confirm_order(page)
+
+
+def test_an_attempt_played_in_another_tab_joins_the_list_by_itself(visitor: BrowserContext, base_url: str) -> None:
+    world_id = played(visitor, base_url)
+    page, other = rank_page(visitor, world_id), visitor.new_page()
+    touch_both(page)
+    failures = walk.order_of(page, "failure")
+    other.goto(f"/worlds/{world_id}")
+    other.keyboard.press("ArrowRight")
+    other.keyboard.press("g")
+    expect(page.locator("#rank-told-text")).to_contain_text("1 new failure since this page was opened: ")
+    assert walk.order_of(page, "failure")[:-1] == failures
     walk.confirm_order(page)
 
 
@@ -446,7 +460,8 @@ def test_agreement_is_told_after_confirming_as_scipy_reckons_it(visitor: Browser
     touch_both(page)
     walk.confirm_order(page)
     panel.locator("summary").first.press("Enter")
-    for outcome, title in (("success", "Successes"), ("failure", "Failures")):
+    titles: dict[Outcome, str] = {"success": "Successes", "failure": "Failures"}
+    for outcome, title in titles.items():
         part = panel.locator("section").filter(has=page.get_by_role("heading", name=title))
         figures = agreement_by_hand(page, outcome)
         told = part.locator(".agreement-words")
@@ -553,7 +568,7 @@ def test_axe_finds_nothing_in_any_state_of_confirming(
         expect(page.locator(".version .mini").first).to_be_visible()
         check_axe(page, "confirmed")
         move_first_down(page, "success")
-        client = client_of(context, base_url)
+        client = Api(context, base_url)
         order = [[id_] for id_ in reversed(walk.order_of(page, "success"))]
         client.put(f"/worlds/{world_id}/rankings/success", {"order": order, "confirmed": True})
         page.locator("#confirm").click()
@@ -565,7 +580,7 @@ def test_axe_finds_nothing_in_any_state_of_confirming(
 
 
 def test_forty_cards_can_be_compared(visitor: BrowserContext, base_url: str) -> None:
-    client = client_of(visitor, base_url)
+    client = Api(visitor, base_url)
     world_id = str(client.post("/worlds", {"seed": 5})["id"])
     for n in range(40):
         actions = [1, 2, 1, 2, 3, 0][: 1 + n % 6] + [3] * (n // 6)

@@ -42,11 +42,11 @@ test("the line beside the button says what counts and what has yet to be confirm
     ],
     [
       { counts: { success: 2, failure: 1 }, differs: ["success"] },
-      "You have changed your successes since version 2. The new order counts once you confirm it.",
+      "Your successes have changed since version 2. The new order counts once you confirm it.",
     ],
     [
       { counts: { success: 2, failure: 1 }, differs: both },
-      "You have changed your successes since version 2 and your failures since version 1. The new order counts once you confirm it.",
+      "Your successes have changed since version 2 and your failures since version 1. The new order counts once you confirm it.",
     ],
     [{ differs: both, onItsWay: both }, "Sending the order of your successes and your failures …"],
   ];

@@ -57,8 +57,11 @@ export function stateSentence({ nCards, canOrder, counts, differs, onItsWay, tro
   if (!canOrder) return "One attempt alone needs no order. Go on, or play more.";
   const changed = differs.filter((outcome) => counts[outcome] !== undefined);
   if (changed.length === 0) return "An order counts once you confirm it.";
-  const since = changed.map((outcome) => `your ${PLURAL[outcome]} since version ${counts[outcome]}`);
-  return `You have changed ${since.join(" and ")}. The new order counts once you confirm it.`;
+  const since = changed.map((outcome, i) => {
+    const [whose, have] = i === 0 ? ["Your", " have changed"] : ["your", ""];
+    return `${whose} ${PLURAL[outcome]}${have} since version ${counts[outcome]}`;
+  });
+  return `${since.join(" and ")}. The new order counts once you confirm it.`;
 }
 
 /** "version 2 of your successes and version 1 of your failures count". @param {Partial<Record<Outcome, number>>} counts */

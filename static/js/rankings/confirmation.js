@@ -22,6 +22,8 @@ import { Versions } from "#js/rankings/versions.js";
 /** @typedef {import("#js/rankings/standing.js").Ranking} Ranking */
 /** @typedef {import("#js/rankings/refusals.js").Answer} Answer */
 
+const ARRIVE_TOGETHER_MS = 400;
+
 export class Confirmation {
   #sitting;
   #data;
@@ -31,6 +33,7 @@ export class Confirmation {
   /** What was sent and is not answered yet: what the page said then. @type {Map<Outcome, string>} */
   #onItsWay = new Map();
   #wasWaiting = false;
+  #arrivals = 0;
   #told = new Told();
   #refusals;
   #versions;
@@ -63,22 +66,28 @@ export class Confirmation {
     this.#sitting.subscribe(() => this.#show());
     this.#sitting.subscribeSaving(() => this.#onSaving());
     this.#sitting.subscribeNews((news) => this.#onNews(news));
-    this.#sitting.subscribeArrivals(() => void this.catchUp());
+    this.#sitting.subscribeArrivals(() => this.#onArrival());
     this.#awaitOlder();
     this.#show();
   }
 
   async confirm() {
     const outcomes = this.#toSend;
-    if (outcomes.length === 0) return;
+    if (outcomes.length === 0) return announce(byId("rank-state").textContent ?? "");
     const untouched = outcomes.filter((outcome) => this.#isUntouched(outcome));
     if (untouched.length > 0 && !(await this.#areTheirs(untouched))) return;
     this.#told.clear();
     await this.#settle(await Promise.all(outcomes.map((one) => this.#send(one, untouched.includes(one)))));
   }
 
-  /** Attempts may have come or gone under the page: the lists follow, and it says so. */
-  async catchUp() {
+  /** Attempts that waited come one after the other, and are told of together. */
+  #onArrival() {
+    clearTimeout(this.#arrivals);
+    this.#arrivals = window.setTimeout(() => void this.#catchUp(), ARRIVE_TOGETHER_MS);
+  }
+
+  /** Attempts have come or gone under the page: the lists follow, and it says so. */
+  async #catchUp() {
     const { sentences, ...help } = await this.#refusals.catchUp();
     if (sentences.length > 0) this.#told.say(sentences.join(" "), help);
   }

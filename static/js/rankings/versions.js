@@ -103,7 +103,7 @@ export class Versions {
     look.addEventListener("toggle", () => this.#cards.fill(find(".version-order"), one.order), { once: true });
     const take = find("button");
     take.setAttribute("aria-label", `Take version ${one.version} of your ${PLURAL[one.outcome]} again`);
-    take.addEventListener("click", () => this.take(one));
+    take.addEventListener("click", () => take.getAttribute("aria-disabled") !== "true" && this.take(one));
     return li;
   }
 
