@@ -6,6 +6,9 @@ import { scaleOf } from "#js/rankings/magnitude.js";
 /** @typedef {import("#js/rankings/order.js").Order} Order */
 /** @typedef {import("#js/rankings/sitting-state.js").Gap} Gap */
 
+/** Of more stops than these each is drawn smaller. */
+const ROOMY = 14;
+
 /** @param {HTMLElement} host @param {Order} order @param {readonly Gap[]} gaps */
 export function drawScale(host, order, gaps) {
   const { stops, spans } = scaleOf(order, gaps);
@@ -22,6 +25,7 @@ export function drawScale(host, order, gaps) {
     dot.dataset.label = isLabelled ? `${rank}${n > 1 ? "=" : ""}` : "";
     return dot;
   });
+  host.dataset.isDense = String(stops.length > ROOMY);
   host.replaceChildren(...lines, ...dots);
   host.setAttribute("aria-label", scaleWords(stops, spans));
 }

@@ -80,8 +80,10 @@ export class SegmentsPanel {
 
   /** The order of a list becomes what follows from the marks. @param {Outcome} outcome */
   use(outcome) {
+    if (byId(`stretches-use-${outcome}`).ariaDisabled === "true")
+      return announce(byId(`stretches-used-${outcome}`).textContent ?? "");
     const order = this.#follows(outcome);
-    if (!this.#parts.sitting.do({ type: "set", means: "button", outcome, order, by: "segments" })) return;
+    this.#parts.sitting.do({ type: "set", means: "button", outcome, order, by: "segments" });
     const which = outcome === "success" ? "successes" : "failures";
     announce(`Your ${which} stand in this order now. Look it over in the lists below, then confirm it.`);
   }
@@ -90,8 +92,9 @@ export class SegmentsPanel {
   #onClick(event) {
     const button = event.target instanceof Element ? event.target.closest("button") : null;
     if (!button) return;
-    const { demonstrationId, mark, use, act } = button.dataset;
-    if (demonstrationId) this.choose(demonstrationId);
+    const { demonstrationId, mark, use, act, needsRun } = button.dataset;
+    if (needsRun !== undefined && !this.#strip.selection) announce("Choose some steps first.");
+    else if (demonstrationId) this.choose(demonstrationId);
     else if (mark) this.mark(mark === "neither" ? null : /** @type {Kind} */ (mark), "button");
     else if (use) this.use(/** @type {Outcome} */ (use));
     else if (act === "before" || act === "next") this.#goBy(act === "next" ? 1 : -1);

@@ -24,7 +24,8 @@ export class StretchInk {
   /** @param {IrlBoard} board @param {AbortSignal} signal */
   constructor(board, signal) {
     this.#board = board;
-    board.append(this.#layer);
+    // Above the squares and the path, below whoever stands there.
+    board.querySelector(".board-agents")?.before(this.#layer);
     board.addEventListener("board:changed", () => this.#fit(), { signal });
   }
 
@@ -44,12 +45,9 @@ export class StretchInk {
     this.#fit();
   }
 
-  /** As large as the squares, which leave some of the board's box free. */
   #fit() {
-    const { world, cell } = this.#board;
-    if (!world || cell === 0) return;
-    this.#layer.setAttribute("width", String(cell * world.cols));
-    this.#layer.setAttribute("height", String(cell * world.rows));
+    const { cell } = this.#board;
+    if (cell === 0) return;
     this.#layer.style.setProperty("--thick", String(Math.max(1, FINE_LINES / cell)));
     this.#layer.style.setProperty("--large", String(Math.max(1, FINE_SIGNS / cell)));
   }
