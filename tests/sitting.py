@@ -30,11 +30,11 @@ class Sitting:
         self.log.append({"n": n, "at_ms": 10.5 * n, "type": kind, "means": "mouse"} | fields)
         return self.log[-1]
 
-    def begin(self, drawn: dict[str, list[str]] | None = None, **changes: Any) -> Json:
+    def begin(self, drawn: dict[str, list[str]] | None = None, *, origins: Json | None = None, **changes: Any) -> Json:
         """Begin with the orders that the server drew for what is kept."""
-        told = {
+        told: Json = {
             "orders": {outcome: [[one] for one in ids] for outcome, ids in (drawn or self.drawn()).items()},
-            "from": {"success": "random", "failure": "random"}, "based_on": {"success": 0, "failure": 0},
+            "from": origins or {"success": "random", "failure": "random"}, "based_on": {"success": 0, "failure": 0},
             "way": "lists", "client": BROWSER,
         }  # fmt: skip
         return self.do("begin", **{"means": "page"} | told | changes)

@@ -120,6 +120,7 @@ def test_every_version_can_be_looked_at_newest_first(client, other_client, world
 def options_of(client, world):
     page = client.get(f"/worlds/{world['id']}/rank").text
     island = re.search(r'<script type="application/json" id="page-data"[^>]*>(.*?)</script>', page, re.DOTALL)
+    assert island
     return json.loads(island[1])["options"]
 
 

@@ -38,7 +38,8 @@ def begins(draw):
 
 def grouped(ids, seed: int) -> list[list[str]]:
     """One of all orders of these cards."""
-    rng, groups = random.Random(seed), []
+    rng = random.Random(seed)
+    groups: list[list[str]] = []
     for one in rng.sample(list(ids), len(ids)):
         if groups and rng.random() < 0.3:
             groups[-1].append(one)
@@ -220,7 +221,7 @@ ONE_SERVER = settings(
 def played(client):
     """A world with four successes and three failures, each of a dozen steps, in the order drawn for them."""
     world = make_world(client)
-    actions = {"actions": [1, 3] * 7, "step_ms": [1.0] * 14}
+    actions: Json = {"actions": [1, 3] * 7, "step_ms": [1.0] * 14}
     bodies = [attempt(world) for _ in range(4)] + [attempt(world, failed=True, **actions) for _ in range(3)]
     for body in bodies:
         post_demonstration(client, world, body)

@@ -200,7 +200,7 @@ def test_a_sitting_may_begin_with_an_order_of_before(client, world, sitting, ids
     make_ranking(client, world, "success", ids[::-1])
     again = Sitting(client, world)
     origins = {"success": "version", "failure": "draft"}
-    again.begin(orders={"success": [[one] for one in ids[::-1]], "failure": []}, **{"from": origins})
+    again.begin(orders={"success": [[one] for one in ids[::-1]], "failure": []}, origins=origins)
     assert again.send().status_code == 200
 
 
@@ -248,9 +248,8 @@ def test_a_log_that_would_take_all_memory_is_refused(client, sitting, ids, monke
     assert "too long" in error(sitting.send(), 422, "invalid")["message"]
     monkeypatch.setattr("app.rankings.log.MOST_CARRIED", 50)
     del sitting.log[4:]
-    for outcome in ("added", "removed") * 10:
-        change = {"added": [], "removed": []} | {outcome: []}
-        sitting.do("cards", outcome="success", **change)
+    for _ in range(20):
+        sitting.do("cards", outcome="success", added=[], removed=[])
     assert "too long" in error(sitting.send(), 422, "invalid")["message"]
     assert stored(client) == 0
 
@@ -333,7 +332,7 @@ def test_one_card_needs_no_touch_nor_does_an_order_of_before(client, world, sitt
     assert sitting.confirm("failure", failed).json()["untouched"] is True
     make_ranking(client, world, "success", ids)
     again, order = Sitting(client, world), [[one] for one in ids]
-    again.begin(orders={"success": order, "failure": []}, **{"from": {"success": "version", "failure": "random"}})
+    again.begin(orders={"success": order, "failure": []}, origins={"success": "version", "failure": "random"})
     assert again.confirm("success", order).json()["untouched"] is True
 
 
