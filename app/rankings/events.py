@@ -22,6 +22,8 @@ Group = Annotated[list[Id], FailFast(), Field(min_length=1, max_length=MOST_RANK
 Groups = Annotated[list[Group], FailFast(), Field(max_length=MOST_RANKED)]
 Ids = Annotated[list[Id], FailFast(), Field(max_length=MOST_RANKED)]
 Version = Annotated[int, Field(ge=0, le=2**31, strict=True)]
+AwayMs = Annotated[float, Field(ge=0, le=1e15, strict=True, allow_inf_nan=False)]
+"""By the calendar's clock, which a person may have put right by years in between: no reason to lose a log."""
 Step = Annotated[int, Field(ge=1, le=MOST_STEPS, strict=True)]
 
 
@@ -216,7 +218,7 @@ class Resumed(_Event):
     """The sitting was taken up again after its page had been closed."""
 
     type: Literal["resumed"]
-    away_ms: Ms | None = Field(description="How long it was closed, by the calendar's clock; null: not known.")
+    away_ms: AwayMs | None = Field(description="How long it was closed, by the calendar's clock; null: not known.")
 
 
 class Confirm(_InOneList):
