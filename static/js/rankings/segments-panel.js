@@ -57,11 +57,7 @@ export class SegmentsPanel {
 
   /** @param {string} id */
   choose(id) {
-    this.#replay.stop();
-    this.#chosen = id;
-    this.#strip.fill(this.#walk);
-    this.#board.world = this.#parts.world;
-    this.#show();
+    this.#open(id);
     announce(`${byId("stretches-title").textContent}: ${byId("stretches-words").textContent}.`);
   }
 
@@ -146,12 +142,21 @@ export class SegmentsPanel {
     if (to) this.choose(to);
   }
 
+  /** @param {string} id */
+  #open(id) {
+    this.#replay.stop();
+    this.#chosen = id;
+    this.#strip.fill(this.#walk);
+    this.#board.world = this.#parts.world;
+    this.#show();
+  }
+
   #show() {
     if (this.#parts.sitting.state.way !== "segments") return this.#replay.stop();
     const ids = this.#ids;
     this.#root.hidden = ids.length === 0;
     if (ids.length === 0) return;
-    if (this.#chosen === null || !ids.includes(this.#chosen)) return this.choose(ids[0]);
+    if (this.#chosen === null || !ids.includes(this.#chosen)) return this.#open(ids[0]);
     this.#strip.mark(this.#stretches);
     this.#showAttempt(ids);
     this.#showSelection();
