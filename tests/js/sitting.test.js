@@ -123,6 +123,21 @@ test("attempts that came and went meanwhile join and leave, and nothing else mov
   assert.deepEqual(logOf(browser, second).at(-1).added, ["d"]);
 });
 
+test("before there is anything to order the server hears nothing; then it begins with what was drawn", async () => {
+  const browser = new Browser();
+  const { cards } = browser;
+  browser.cards = { success: [], failure: [] };
+  const first = await browser.open("first");
+  first.sitting.do({ type: "hidden", means: "page" });
+  await first.settle();
+  assert.deepEqual(browser.server.calls, []);
+  first.close();
+  browser.cards = cards;
+  const second = await browser.open("second");
+  await second.settle();
+  assert.deepEqual(logOf(browser, second)[0].orders.success, [["c"], ["b"], ["a"]]);
+});
+
 test("a stranger finds nothing of it, and leaves it as it was", async () => {
   const browser = new Browser();
   const first = await busy(browser);

@@ -77,6 +77,11 @@ function followed(state, event) {
   }
 }
 
+/** @param {Readonly<Record<Outcome, Order>>} orders */
+export function isEmpty(orders) {
+  return OUTCOMES.every((outcome) => orders[outcome].length === 0);
+}
+
 /** Whether the visitor who is here has none of its attempts, not even a discarded one. @param {State} state @param {any} data */
 export function isStrange({ present: { orders } }, data) {
   const known = new Set(data.demonstrations.map((/** @type {any} */ one) => one.id));

@@ -97,9 +97,10 @@ export class Journal {
     if (entry && events.length > 0) this.#lastStraw.keep([{ id: entry.id, entry, events }]);
   }
 
-  /** It stays as it is, for whom it may concern. @param {string} id */
+  /** It stays as it is, for whom it may concern. @param {string} id @returns {null} */
   leave(id) {
     this.#belongings.giveBack(nameOf(id));
+    return null;
   }
 
   /** The server would not have its log. @param {Entry} entry */
@@ -108,11 +109,12 @@ export class Journal {
     this.#belongings.giveBack(nameOf(entry.id));
   }
 
-  /** Everything in it is confirmed, and on the server. @param {string} id */
+  /** There is nothing in it that is not on the server, or on its way. @param {string} id @returns {null} */
   drop(id) {
     this.#lastStraw.drop(id);
     void this.#shelf.delete(id).catch(() => {});
     this.#belongings.giveBack(nameOf(id));
+    return null;
   }
 
   /** @param {string} worldId */

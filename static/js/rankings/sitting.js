@@ -104,18 +104,16 @@ export class Sitting {
   /** @param {any} data @param {{entry: Entry, state: State, log: Event[]}} left @param {Around} around @returns {Promise<Sitting | null>} */
   static async #goOn(data, { entry, state, log }, around) {
     const { id, worldId, acknowledged, versions } = entry;
+    // Another person's, or one's own from before the cookie was lost: it is not for this page to change.
+    if (beginning.isStrange(state, data)) return around.journal.leave(id);
     const parcels = (await around.outbox.all()).filter((one) => one.kind === "ranking" && one.sittingId === id);
     if (parcels.length === 0 && beginning.isAllConfirmed(id, state, data)) {
       const events = log.slice(acknowledged);
       if (events.length > 0) await around.outbox.add({ kind: "log", id: logId(id), worldId, sittingId: id, events });
-      around.journal.drop(id);
-      return null;
+      return around.journal.drop(id);
     }
-    // Another person's, or one's own from before the cookie was lost: it is not for this page to change.
-    if (beginning.isStrange(state, data)) {
-      around.journal.leave(id);
-      return null;
-    }
+    // Begun before there was anything to order: what there is now is shown as it was drawn.
+    if (acknowledged === 0 && beginning.isEmpty(log[0].orders)) return around.journal.drop(id);
     const book = { id, worldId, log, acknowledged: Math.min(acknowledged, log.length), versions: { ...versions } };
     const sitting = new Sitting({ book, state, showTotals: data.options.show_totals }, around);
     sitting.#bringUpToDate(data, entry);
@@ -214,7 +212,7 @@ export class Sitting {
 
   /** The page may be closed at any moment. */
   pause() {
-    this.#dispatch.logNow();
+    if (!beginning.isEmpty(this.orders)) this.#dispatch.logNow();
     this.#around.journal.rescue();
   }
 
@@ -272,7 +270,8 @@ export class Sitting {
     log.push(event);
     this.#savedAt = Date.now();
     this.#around.journal.keep(this.#entry(), [event]);
-    this.#dispatch.logSoon();
+    // Without an attempt there is nothing that the server would keep.
+    if (!beginning.isEmpty(this.orders)) this.#dispatch.logSoon();
     return event;
   }
 
