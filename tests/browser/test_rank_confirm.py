@@ -200,24 +200,47 @@ def test_a_change_has_to_be_confirmed_again_unless_it_is_undone(visitor: Browser
 
 
 def two_orders(context: BrowserContext, address: str) -> tuple[Page, str, list[str], list[str]]:
-    """A tab whose successes another tab has confirmed in another order: it, the world, this order, that one."""
+    """A page whose successes were confirmed elsewhere in another order: it, the world, this order, that one."""
     world_id = played(context, address)
-    page, other = rank_page(context, world_id), rank_page(context, world_id)
+    page = rank_page(context, world_id)
+    theirs = walk.order_of(page, "success")[::-1]
+    order = {"order": [[id_] for id_ in theirs], "confirmed": True}
+    Api(context, address).put(f"/worlds/{world_id}/rankings/success", order)
     touch_both(page)
-    page.locator('#list-success .card[data-position="3"] [data-act="up"]').click()
-    touch_both(other)
-    walk.confirm_order(other)
-    theirs = walk.order_of(other, "success")
-    other.close()
-    expect(page.locator("#rank-told-text")).to_contain_text("was confirmed in another tab just now, and it counts.")
-    page.bring_to_front()
     page.locator("#confirm").click()
+    expect_asked(page)
+    return page, world_id, walk.order_of(page, "success"), theirs
+
+
+def expect_asked(page: Page) -> None:
     dialog = page.get_by_role("dialog", name="Two orders of your successes")
     expect(dialog).to_have_accessible_description(
         re.compile(r"^Version 1 was confirmed at \d\d:\d\d, after this page was opened, perhaps in another tab\. ")
     )
     expect(page.locator("#conflict-title")).to_be_focused()
-    return page, world_id, walk.order_of(page, "success"), theirs
+
+
+def test_what_another_tab_confirms_is_told_and_weighed_and_both_versions_are_kept(
+    visitor: BrowserContext, base_url: str
+) -> None:
+    world_id = played(visitor, base_url)
+    page, other = rank_page(visitor, world_id), rank_page(visitor, world_id)
+    touch_both(page)
+    page.locator('#list-success .card[data-position="3"] [data-act="up"]').click()
+    mine = walk.order_of(page, "success")
+    touch_both(other)
+    walk.confirm_order(other)
+    theirs = walk.order_of(other, "success")
+    expect(page.locator("#rank-told-text")).to_contain_text("was confirmed in another tab just now, and it counts.")
+    page.locator("#confirm").click()
+    expect_asked(page)
+    page.get_by_role("button", name="Mine counts").press("Enter")
+    expect_confirmed(page)
+    said = "Version 2 of your successes counts, the one on this page. Version 1 is kept beside it."
+    expect(page.locator("#rank-told-text")).to_contain_text(said)
+    expect(page.locator("#announcer")).to_contain_text(said)
+    orders = [flat(one["order"]) for one in versions(visitor, base_url, world_id, "success")]
+    assert orders == [mine, theirs]
 
 
 def test_two_orders_stand_side_by_side_with_what_differs_marked(visitor: BrowserContext, base_url: str) -> None:
@@ -433,6 +456,7 @@ def test_an_earlier_order_can_be_looked_at_and_taken_again(visitor: BrowserConte
     )
     panel.locator("summary").first.press("Enter")
     successes = panel.locator("section").filter(has=page.get_by_role("heading", name="Successes"))
+    expect(successes.locator(".version")).to_have_count(2)
     newest, older = successes.locator(".version").all()
     expect(newest.locator(".version-words")).to_have_text(
         re.compile(r"^Version 2 · \d\d:\d\d · in two lists · counts$")
