@@ -3,6 +3,7 @@ import { readFileSync } from "node:fs";
 import { describe, it } from "node:test";
 import { orderFromComparisons } from "#js/rankings/comparison-order.js";
 import { mergeInsertion } from "#js/rankings/merge-insertion.js";
+import { leftWords, questionOf, saidWords } from "#js/rankings/pair-words.js";
 import { pairwise } from "#js/rankings/pairwise.js";
 
 const VECTORS = JSON.parse(readFileSync(new URL("../core/comparison_vectors.json", import.meta.url), "utf8"));
@@ -120,6 +121,23 @@ describe("two at a time", () => {
       left.set(next[0] === ids[0], (left.get(next[0] === ids[0]) ?? 0) + 1);
     }
     assert.ok(left.get(true) > 15 && left.get(false) > 15);
+  });
+});
+
+describe("the words of a question", () => {
+  it("say how many are left, and at most", () => {
+    const words = (least, most, isContradictory = false) => leftWords({ left: { least, most }, isContradictory });
+    assert.equal(words(7, 9), "About 7 questions left (at most 9)");
+    assert.equal(words(1, 2), "About 1 question left (at most 2)");
+    assert.equal(words(1, 1), "1 question left");
+    assert.equal(words(1, 6, true), "Some of your answers do not fit together yet: at most 6 more questions.");
+  });
+
+  it("ask for the better success and the worse failure", () => {
+    assert.equal(questionOf("success"), "Which one is better?");
+    assert.equal(questionOf("failure"), "Which one is worse?");
+    assert.equal(saidWords("a", "failure"), "The left one is worse.");
+    assert.equal(saidWords("alike", "success"), "They are alike.");
   });
 });
 

@@ -53,6 +53,7 @@ export class PairView {
       if (board.world !== this.#world) board.world = this.#world;
       board.label = `${side === "a" ? "Left" : "Right"}: ${words[side]}`;
       this.part(`words-${side}`).textContent = words[side];
+      this.#root.querySelector(`[data-side="${side}"]`)?.setAttribute("data-shows", { a, b }[side].id);
     }
     this.#clock.load(Math.max(a.actions.length, b.actions.length));
     this.#clock.pause();
