@@ -22,7 +22,7 @@ from app.errors import Conflict, NotFound, Unavailable, Unprocessable
 from app.kit.clock import now
 from app.models import RankingEvent, Sitting
 from app.rankings import queries
-from app.rankings.log import Event, Log, Owner, checked_after, log_after
+from app.rankings.log import Event, Log, Owner, checked_after, log_after, n_held
 from app.rankings.replay import InvalidEvent
 from app.visitors import remember
 
@@ -30,8 +30,8 @@ T = TypeVar("T")
 
 INSERT = insert(RankingEvent)
 MOST_TRIES = 5
-MOST_KNOWN_EVENTS = 40_000
-"""How many events the logs that a process remembers may have together: a hundred sittings, or 20 MB."""
+MOST_KNOWN = 8_000_000
+"""What the logs that a process remembers may hold together, as `n_held` measures it: 60 MB, or hundreds of sittings."""
 
 
 class KnownLogs:
@@ -40,6 +40,7 @@ class KnownLogs:
     def __init__(self) -> None:
         self._lock = Lock()
         self._logs: OrderedDict[str, Log] = OrderedDict()
+        self._n_held = 0
 
     def find(self, sitting_id: str) -> Log | None:
         """Return what is remembered of a sitting."""
@@ -49,11 +50,16 @@ class KnownLogs:
     def keep(self, sitting_id: str, log: Log) -> None:
         """Remember it, and forget those that were not asked for the longest."""
         with self._lock:
+            if sitting_id in self._logs:
+                self._n_held -= _weight(self._logs.pop(sitting_id))
             self._logs[sitting_id] = log
-            self._logs.move_to_end(sitting_id)
-            n_events = sum(one.n_events for one in self._logs.values())
-            while n_events > MOST_KNOWN_EVENTS:
-                n_events -= self._logs.popitem(last=False)[1].n_events
+            self._n_held += _weight(log)
+            while self._n_held > MOST_KNOWN:
+                self._n_held -= _weight(self._logs.popitem(last=False)[1])
+
+
+def _weight(log: Log) -> int:
+    return 100 + n_held(log.state)
 
 
 @dataclass(frozen=True, slots=True)
