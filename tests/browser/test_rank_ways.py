@@ -281,6 +281,7 @@ def open_way(page: Page, base_url: str, way: str, *, successes: int = 0, failure
 
 
 def choose_way(page: Page, way: str) -> None:
+    expect(page.locator("#list-success .card, #list-failure .card").first).to_be_attached()
     page.locator(f'#ways input[value="{way}"]').check(force=True)
     expect(page.locator("#rank")).to_have_attribute("data-way", way)
 
