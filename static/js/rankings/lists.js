@@ -51,8 +51,8 @@ export class RankLists {
   start(signal) {
     const { root, sitting } = this.#parts;
     // Before all others, so that the focus is known to come from a pointer.
-    root.addEventListener("pointerdown", (event) => this.#onPointer(event), { signal, capture: true });
-    root.addEventListener("keydown", () => this.#onPointer(null), { signal, capture: true });
+    document.addEventListener("pointerdown", (event) => this.#onPointer(event), { signal, capture: true });
+    document.addEventListener("keydown", () => this.#onPointer(null), { signal, capture: true });
     root.addEventListener("pointerover", (event) => this.#onHover(event), { signal });
     root.addEventListener("focusin", (event) => this.#onFocus(event), { signal });
     root.addEventListener("click", (event) => this.#onClick(event), { signal });
