@@ -72,6 +72,8 @@ class RankPage {
     document.addEventListener("visibilitychange", () => this.#onVisibility(), { signal });
     this.#sitting.subscribe(() => this.#show());
     this.#show();
+    // Until now a choice would have been heard by nobody.
+    /** @type {HTMLFieldSetElement | null} */ (document.querySelector("#ways"))?.removeAttribute("disabled");
   }
 
   #show() {
