@@ -130,6 +130,7 @@ def test_an_answer_taken_back_brings_back_its_question_and_so_does_a_reload(page
     for pair, left in reversed(seen):
         page.keyboard.press("Backspace")
         assert (on_show(page), page.locator("#pairs-left").inner_text()) == (pair, left)
+    expect(page.locator("#announcer")).to_have_text(re.compile(r"^Taken back\. .*Which one is better\? Left: Success"))
     page.keyboard.press("Backspace")
     expect(page.locator("#announcer")).to_have_text("There is no answer to take back yet.")
 

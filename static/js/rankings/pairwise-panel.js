@@ -3,7 +3,7 @@
  * failures. All it knows it reads from the sitting's answers, so that undo and a reload bring back the question that was.
  */
 
-import { announce } from "#js/lib/announce.js";
+import { announce, announceToo } from "#js/lib/announce.js";
 import { byId } from "#js/lib/dom.js";
 import { isTaken } from "#js/lib/keys.js";
 import { flat, isSame } from "#js/rankings/order.js";
@@ -69,7 +69,7 @@ export class PairwisePanel {
   takeBack(means) {
     if (this.#nAnswers === 0) return announce("There is no answer to take back yet.");
     this.#parts.sitting.do({ type: "undo", means });
-    this.#tell("Taken back.");
+    announce("Taken back.");
   }
 
   /** The lists stand as the answers say. @param {Outcome} outcome @param {Means} means */
@@ -143,16 +143,18 @@ export class PairwisePanel {
   /** The last answer and the order that came of it are one step for a person: taken back, and done again, together. @param {{type: string, means?: Means}} event */
   #followUp({ type, means = "page" }) {
     const { sitting } = this.#parts;
-    const { past, present, future, way } = sitting.state;
-    const [before, after] = [past.at(-1), future[0]];
-    if (way !== "pairwise" || !before || !after) return;
-    const isBetween = OUTCOMES.some((outcome) => {
-      const [nBefore, n, nAfter] = [before, present, after].map((content) => content.answers[outcome].length);
-      const { next, order } = this.#standing(outcome);
-      const isSetNext = nAfter === n && isSame(after.orders[outcome], order) && !isSame(present.orders[outcome], order);
-      return nBefore === Number(n) - 1 && next === null && isSetNext;
-    });
-    if (isBetween) sitting.do({ type, means });
+    const isHere = sitting.state.way === "pairwise";
+    if (isHere && OUTCOMES.some((outcome) => this.#isBeforeItsOrder(outcome))) sitting.do({ type, means });
+    else if (this.#asked) announceToo(this.#questionWords(this.#asked));
+  }
+
+  /** Whether we stand between the last answer and the order that came of it. @param {Outcome} outcome */
+  #isBeforeItsOrder(outcome) {
+    const { past, present, future } = this.#parts.sitting.state;
+    const [nBefore, n, nAfter] = [past.at(-1), present, future[0]].map((content) => content?.answers[outcome].length);
+    const { next, order } = this.#standing(outcome);
+    const isSetNext = nAfter === n && isSame(future[0]?.orders[outcome] ?? [], order);
+    return nBefore === Number(n) - 1 && next === null && isSetNext && !isSame(present.orders[outcome], order);
   }
 
   #show() {
@@ -201,11 +203,14 @@ export class PairwisePanel {
 
   /** What came of it, and the next question; the focus stays with the person. @param {string} said */
   #tell(said) {
-    const asked = this.#asked;
-    if (asked) return announce(`${said} ${askedWords({ ...asked, words: this.#wordsOf(asked.next) })}`);
-    const done = byId("pairs-done");
-    done.focus();
+    if (this.#asked) return announce(`${said} ${this.#questionWords(this.#asked)}`);
+    byId("pairs-done").focus();
     announce(`${said} ${byId("pairs-done-text").textContent}`);
+  }
+
+  /** @param {{outcome: Outcome, next: [string, string], standing: Standing}} question */
+  #questionWords(question) {
+    return askedWords({ ...question, words: this.#wordsOf(question.next) });
   }
 
   /** @param {[string, string]} pair */
