@@ -4,7 +4,7 @@
 run    set up, then serve on http://127.0.0.1:8000             (IRLFR_PORT and the other settings: README.md)
 test   set up, then run every test, browser tests included     (further arguments go to pytest)
 check  format, lint, types, import contracts, docs
-bench  measure: `bench core`, `bench play`, `bench web`, or all; writes bench.json
+bench  measure: `bench core`, `play`, `rank`, `web`, or all; writes bench.json
 """
 
 import sys
