@@ -272,7 +272,7 @@ def test_nothing_to_touch_is_too_small(browser: Browser, base_url: str) -> None:
                 "() => [...document.querySelectorAll('#list-success button')].map((one) => one.getBoundingClientRect())"
                 ".map(({ width, height }) => Math.min(width, height))"
             )
-            assert min(sizes) >= least
+            assert min(sizes) > least - 0.01  # a grid's tracks are a hair off
 
 
 @pytest.mark.parametrize("width", [320, 360, 640])
@@ -318,7 +318,7 @@ def test_axe_finds_nothing(browser: Browser, base_url: str, scheme: Literal["lig
 @pytest.fixture(scope="module")
 def discreet(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """The address of a server whose study hides the totals."""
-    live = LiveServer(tmp_path_factory.mktemp("discreet"), {"IRLFR_SHOW_TOTALS": "false", "IRLFR_WORKERS": "0"})
+    live = LiveServer(tmp_path_factory.mktemp("discreet"), {"IRLFR_SHOW_TOTALS": "false"})
     live.start()
     yield live.address
     live.stop()

@@ -102,6 +102,7 @@ def drag_by_touch(page: Page, card: Locator, target: Locator) -> None:
     for part in range(1, 6):
         points = [{"x": x, "y": y + (drop - y) * part / 5}]
         finger.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": points})
+    page.wait_for_timeout(120)  # as in `swipe`
     finger.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
     finger.detach()
 
