@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sqlalchemy import func, select
+from sqlalchemy import Select, func, select
 from sqlalchemy.orm import Session
 
 from app.models import Demonstration, Ranking, RankingEvent, Sitting
@@ -13,8 +13,7 @@ from app.rankings.content import Outcome
 
 def newest(session: Session, visitor_id: str | None, world_id: str) -> dict[str, Ranking]:
     """Find the newest order of each outcome that a visitor has confirmed in a world."""
-    theirs = (Ranking.visitor_id == visitor_id, Ranking.world_id == world_id)
-    rows = session.scalars(select(Ranking).where(*theirs).order_by(Ranking.version))
+    rows = session.scalars(select(Ranking).where(Ranking.id.in_(_newest_ids(visitor_id, world_id))))
     return {row.outcome: row for row in rows}
 
 
@@ -70,8 +69,13 @@ def stored_events(session: Session, sitting_id: str, start: int, stop: int) -> l
 
 def newest_ids(session: Session, visitor_id: str | None, world_id: str) -> set[int]:
     """Find the row of the newest version of each outcome."""
+    return set(session.scalars(_newest_ids(visitor_id, world_id)))
+
+
+def _newest_ids(visitor_id: str | None, world_id: str) -> Select[int]:
+    """Say which rows to look for; each version comes after the one before it."""
     theirs = (Ranking.visitor_id == visitor_id, Ranking.world_id == world_id)
-    return set(session.scalars(select(func.max(Ranking.id)).where(*theirs).group_by(Ranking.outcome)))
+    return select(func.max(Ranking.id)).where(*theirs).group_by(Ranking.outcome)
 
 
 def next_versions(

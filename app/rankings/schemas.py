@@ -90,7 +90,9 @@ class RankingIn(BaseModel):
     )
     confirmed: bool = Field(strict=True, description="The person said that this is their order.")
     based_on: Version | None = Field(
-        default=None, description="The version that the person saw count (0: none); refused if another counts by now."
+        default=None,
+        description="The version that the person saw count (0: none); refused if another counts by now, unless that was"
+        " confirmed earlier in the same sitting.",
     )
     untouched: bool = Field(
         default=False, strict=True, description="They said that the order drawn at random, as it stands, is theirs."

@@ -43,25 +43,24 @@ def confirm(sittings: Sittings, whose: Whose, outcome: Outcome, told: RankingIn)
             return _store(session, whose, outcome, told, log), True
         if known.order != told.order:
             _refuse_another_order()
-        return known, known.version == _newest_version(session, whose, outcome)
+        return known, known is _newest(session, whose, outcome)
 
     return sittings.append(whose, sitting.id, [as_sent(event) for event in sitting.events], work)
 
 
-def _newest_version(session: Session, whose: Whose, outcome: Outcome) -> int:
-    known = queries.newest(session, whose.visitor_id, whose.world_id).get(outcome)
-    return known.version if known else 0
+def _newest(session: Session, whose: Whose, outcome: Outcome) -> Ranking | None:
+    return queries.newest(session, whose.visitor_id, whose.world_id).get(outcome)
 
 
 def _store(session: Session, whose: Whose, outcome: Outcome, told: RankingIn, log: Log | None) -> Ranking:
-    version = _newest_version(session, whose, outcome)
-    _check(told, queries.attempts(session, whose.visitor_id, whose.world_id), outcome, version, log)
+    newest = _newest(session, whose, outcome)
+    _check(told, queries.attempts(session, whose.visitor_id, whose.world_id), outcome, newest, log)
     ids = [member for group in told.order for member in group]
     ranking = Ranking(
         world_id=whose.world_id,
         visitor_id=whose.visitor_id,
         outcome=outcome,
-        version=version + 1,
+        version=newest.version + 1 if newest else 1,
         order=told.order,
         start_order=start_order(str(whose.visitor_id), whose.world_id, outcome, ids),
         created_at=now(),
@@ -82,18 +81,32 @@ def _origin(log: Log, outcome: Outcome) -> dict[str, Any]:
     }
 
 
-def _check(told: RankingIn, attempts: Mapping[str, Attempt], outcome: Outcome, version: int, log: Log | None) -> None:
-    """Raise what speaks against storing this as the version after `version`, if anything does."""
+def _check(
+    told: RankingIn, attempts: Mapping[str, Attempt], outcome: Outcome, newest: Ranking | None, log: Log | None
+) -> None:
+    """Raise what speaks against storing this as the version after the newest, if anything does."""
     if log is not None:
         check_is_confirm(log, outcome)
     check_order(told.order, attempts, outcome, log)
     if log is not None and not told.untouched:
         check_is_touched(log, outcome)
-    if told.based_on not in {None, version}:
-        message = f"Version {version} of this order counts by now. Look at both, and send the one that is to count."
-        raise Conflict(message, code="stale_version", fields={"version": str(version)})
+    check_is_upon(told, newest, log)
     if log is not None and log.state.orders[outcome] != as_order(told.order):
         _refuse_another_order()
+
+
+def check_is_upon(told: RankingIn, newest: Ranking | None, log: Log | None) -> None:
+    """Raise Conflict where an order counts that the person did not see count, unless it is from earlier in this log."""
+    version = newest.version if newest else 0
+    if told.based_on not in {None, version} and not _is_earlier(newest, told, log):
+        message = f"Version {version} of this order counts by now. Look at both, and send the one that is to count."
+        raise Conflict(message, code="stale_version", fields={"version": str(version)})
+
+
+def _is_earlier(ranking: Ranking | None, told: RankingIn, log: Log | None) -> bool:
+    if ranking is None or ranking.n_events is None or told.sitting is None or log is None:
+        return False
+    return ranking.sitting_id == told.sitting.id and ranking.n_events < log.n_events
 
 
 def check_is_confirm(log: Log, outcome: Outcome) -> None:

@@ -48,12 +48,12 @@ class KnownLogs:
             return self._logs.get(sitting_id)
 
     def keep(self, sitting_id: str, log: Log) -> None:
-        """Remember it, and forget those that were not asked for the longest."""
+        """Remember it, unless more of it is remembered, and forget those that were not asked for the longest."""
         with self._lock:
-            if sitting_id in self._logs:
-                self._n_held -= _weight(self._logs.pop(sitting_id))
-            self._logs[sitting_id] = log
-            self._n_held += _weight(log)
+            known = self._logs.pop(sitting_id, None)
+            longer = known if known is not None and known.n_events > log.n_events else log
+            self._logs[sitting_id] = longer
+            self._n_held += _weight(longer) - (0 if known is None else _weight(known))
             while self._n_held > MOST_KNOWN:
                 self._n_held -= _weight(self._logs.popitem(last=False)[1])
 

@@ -241,6 +241,17 @@ def test_a_server_remembers_no_more_than_it_may(client, world, sitting, ids, mon
     assert len(known) == 2  # of a hundred and some each
 
 
+def test_what_is_asked_again_of_an_early_event_forgets_no_later_one(client, sitting, ids):
+    sitting.set("success", [ids])
+    assert sitting.confirm("success", [ids]).status_code == 200
+    early = list(sitting.log)
+    sitting.do("watch", id=ids[0])
+    for _ in range(2):  # what is remembered is what was stored before a request
+        sitting.send()
+    assert sitting.put("success", [ids], events=early).status_code == 200
+    assert client.app.state.sittings._known._logs[sitting.id].n_events == 4
+
+
 def test_a_log_that_would_take_all_memory_is_refused(client, sitting, ids, monkeypatch):
     monkeypatch.setattr("app.rankings.log.MOST_HELD", 100)
     for _ in range(20):
@@ -387,6 +398,22 @@ def test_two_tabs_that_confirm_in_turn_keep_both_versions_and_one_counts(client,
     ]  # fmt: skip
     newest = client.get(f"/api/v1/worlds/{world['id']}/rankings").json()["success"]
     assert newest == versions[0]
+
+
+def test_what_was_confirmed_earlier_in_the_sitting_is_no_conflict_even_if_its_answer_was_lost(client, sitting, ids):
+    sitting.set("success", [ids])
+    lost = sitting.confirm("success", [ids], based_on=0)
+    sitting.set("success", [ids[:1], ids[1:]])
+    assert (lost.status_code, sitting.confirm("success", [ids[:1], ids[1:]], based_on=0).json()["version"]) == (200, 2)
+
+
+def test_a_confirmation_that_comes_after_a_later_one_of_its_sitting_does_not_count(client, sitting, ids):
+    sitting.set("success", [ids])
+    sitting.do("confirm", outcome="success", untouched=False)
+    late = list(sitting.log)
+    sitting.set("success", [ids[:1], ids[1:]])
+    assert sitting.confirm("success", [ids[:1], ids[1:]], based_on=0).json()["version"] == 1
+    error(sitting.put("success", [ids], events=late, based_on=0), 409, "stale_version")
 
 
 def test_a_stale_version_is_named_without_a_sitting_too(client, world, ids):

@@ -285,6 +285,26 @@ test("what was confirmed offline before the page was closed is still known, and 
   assert.equal((await confirmed).ranking.version, 2);
 });
 
+test("confirmed again after an answer that was lost, an order follows its own, whichever page sends it", async () => {
+  const browser = new Browser();
+  const first = await busy(browser);
+  const answer = globalThis.fetch;
+  globalThis.fetch = async (url, options) => {
+    await answer(url, options);
+    throw new TypeError("the answer is lost");
+  };
+  void first.sitting.confirm("success", MINE);
+  await first.settle();
+  first.top("b");
+  void first.sitting.confirm("success", MINE);
+  first.close();
+  globalThis.fetch = answer;
+  const second = await browser.open("second");
+  const [before, now] = browser.server.versions.success;
+  assert.deepEqual([before.version, now.order], [1, second.sitting.orders.success]);
+  assert.deepEqual((await second.atFirst.success.done).ranking, now);
+});
+
 test("what was refused while the page was closed is told to the next", async () => {
   const browser = new Browser();
   const first = await busy(browser);

@@ -51,11 +51,11 @@ export class Server {
   }
 
   #rank(outcome, { order, based_on, sitting }) {
-    const newest = this.versions[outcome].at(-1)?.version ?? 0;
+    const { version: newest = 0, sitting_id: from } = this.versions[outcome].at(-1) ?? {};
     const n = sitting.events.at(-1).n + 1;
     const again = this.versions[outcome].find((one) => one.sitting_id === sitting.id && one.n_events === n);
     if (again) return json(200, again);
-    if (based_on !== newest)
+    if (based_on !== newest && from !== sitting.id)
       return refused({ status: 409, code: "stale_version", fields: { version: String(newest) } });
     const error = this.#append(sitting.id, sitting.events);
     if (error) return error;

@@ -14,8 +14,6 @@ const MOST_EVENTS_AT_ONCE = 500;
 export function rankingSender() {
   /** How many events of a sitting have been acknowledged. @type {Map<string, number>} */
   const acknowledged = new Map();
-  /** The newest order confirmed in a sitting, by its parcel. @type {Map<string, number>} */
-  const versions = new Map();
 
   /** @param {LogParcel | RankingParcel} parcel @returns {Promise<any>} */
   return async function send(parcel) {
@@ -35,17 +33,13 @@ export function rankingSender() {
   }
 
   /** The confirmation itself travels with the order, so that neither is ever there without the other. @param {RankingParcel} parcel */
-  async function sendRanking({ id, worldId, sittingId, outcome, body }) {
+  async function sendRanking({ worldId, sittingId, outcome, body }) {
     const events = unknown(sittingId, body.sitting.events.slice(0, -1));
     const nBefore = Math.max(0, events.length + 1 - MOST_EVENTS_AT_ONCE);
     await sendEvents({ worldId, sittingId }, events.slice(0, nBefore));
     const sitting = { id: body.sitting.id, events: [...events.slice(nBefore), ...body.sitting.events.slice(-1)] };
-    // One of the same sitting may have gone out while this one took its place: that is no conflict.
-    const basedOn = Math.max(body.based_on, versions.get(id) ?? 0);
-    const told = { ...body, based_on: basedOn, sitting };
-    const ranking = await api.put(`/worlds/${worldId}/rankings/${outcome}`, told, options());
+    const ranking = await api.put(`/worlds/${worldId}/rankings/${outcome}`, { ...body, sitting }, options());
     if (typeof ranking?.version !== "number") throw noAnswer();
-    versions.set(id, ranking.version);
     acknowledged.set(sittingId, Math.max(acknowledged.get(sittingId) ?? 0, ranking.n_events ?? 0));
     return ranking;
   }
