@@ -85,6 +85,10 @@ def test_pictures(browser: Browser, base_url: str, screenshots: Path | None, dev
             if name == "compare":
                 halfway(page)
             take(page, screenshots / f"{name}-{device}-{scheme}.png")
+            if name == "rank":
+                for way in ("pairwise", "segments"):
+                    page.locator(f'[name="way"][value="{way}"]').check(force=True)
+                    take(page, screenshots / f"rank-{way}-{device}-{scheme}.png")
         page.goto("/worlds/new?rows=7&cols=9&seed=5&walls=12,21,30-32&goals=62,17&painted=24-25:-6")
         take(page, screenshots / f"editor-{device}-{scheme}.png")
         page.goto("/docs")
