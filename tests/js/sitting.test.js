@@ -205,6 +205,18 @@ test("where the storage is full the page goes on; what it did not take survives 
   assert.equal((await browser.open("second")).order, "bac");
 });
 
+test("where the storage fails once, in the middle of quick work, no step is missing between others", async () => {
+  const browser = new Browser();
+  const first = await browser.open("first");
+  await first.settle();
+  browser.nFailures = 1;
+  first.top("a");
+  first.top("b");
+  await first.settle();
+  first.close({ isKilled: true });
+  assert.equal((await browser.open("second")).order, "bac");
+});
+
 test("a confirmed order resolves when the server has it, with the log up to there", async () => {
   const browser = new Browser();
   const tab = await busy(browser);
@@ -334,6 +346,35 @@ test("confirmed and acknowledged, the page opened anew begins anew, from what co
   assert.deepEqual([begin.from.success, begin.based_on], ["version", { success: 1, failure: 1 }]);
   assert.equal(logOf(browser, first).at(-1).type, "hidden");
   assert.deepEqual([...browser.entries.keys()], [second.sitting.id]);
+});
+
+test("what was said beside a confirmed order is still there when the page is opened anew, also what was said since", async () => {
+  const browser = new Browser();
+  browser.ways = ["magnitude"];
+  const first = await browser.open("first");
+  const say = (value) =>
+    first.sitting.do({ type: "gap", means: "key", outcome: "success", above: "c", below: "b", value });
+  say(40);
+  for (const outcome of ["success", "failure"]) void first.sitting.confirm(outcome, { ...MINE, untouched: true });
+  await first.settle();
+  say(60);
+  first.close();
+  const second = await browser.open("second");
+  assert.deepEqual(second.sitting.state.present.gaps.success, [{ above: "c", below: "b", value: 60 }]);
+  assert.equal(second.sitting.do(UNDO), true);
+  assert.equal(second.sitting.state.present.gaps.success[0].value, 40);
+});
+
+test("where all that was confirmed was discarded, what came since is in the order drawn, and says so", async () => {
+  const browser = new Browser();
+  const first = await busy(browser);
+  for (const outcome of ["success", "failure"]) void first.sitting.confirm(outcome, MINE);
+  await first.settle();
+  first.close();
+  browser.entries.clear();
+  browser.cards.success = ["d", "e"];
+  const [begin] = logOf(browser, await browser.open("second"));
+  assert.deepEqual([begin.orders.success, begin.from], [[["e"], ["d"]], { success: "random", failure: "version" }]);
 });
 
 test("a refusal rejects with what the server said, and the order stays", async () => {

@@ -82,6 +82,8 @@ export class Browser {
   events = new Map();
   parcels = memoryParcels();
   isFull = false;
+  /** So many times it fails for once. */
+  nFailures = 0;
   #held = new Map();
   #straws = new Map();
   #nSittings = 0;
@@ -134,7 +136,7 @@ export class Browser {
   get shelf() {
     return {
       put: async (entry, events) => {
-        if (this.isFull) throw new DOMException("no room", "QuotaExceededError");
+        if (this.isFull || this.nFailures-- > 0) throw new DOMException("no room", "QuotaExceededError");
         this.entries.set(entry.id, structuredClone(entry));
         for (const event of events) this.events.set(`${entry.id} ${event.n}`, structuredClone(event));
       },

@@ -19,9 +19,11 @@ export function startOf(data) {
   const draft = oldDraft(data.world.id);
   const of = (/** @type {Outcome} */ outcome) => {
     const [kept, ranking] = [draft?.[outcome] ?? [], data.rankings[outcome]];
-    const from = kept.length > 0 ? "draft" : ranking ? "version" : "random";
-    const { added, removed } = newsOf(data, outcome, kept.length > 0 ? kept : (ranking?.order ?? []));
-    const order = reconcile(kept.length > 0 ? kept : (ranking?.order ?? []), added, removed);
+    const before = kept.length > 0 ? kept : (ranking?.order ?? []);
+    const { added, removed } = newsOf(data, outcome, before);
+    const order = reconcile(before, added, removed);
+    // Where all of it was discarded since, what is there now is as it was drawn.
+    const from = added.length === flat(order).length ? "random" : kept.length > 0 ? "draft" : "version";
     return { from, order, version: ranking?.version ?? 0 };
   };
   const [success, failure] = [of("success"), of("failure")];
@@ -89,17 +91,17 @@ export function isStrange({ present: { orders } }, data) {
   return ids.length > 0 && !ids.some((id) => known.has(id));
 }
 
-/** Whether the newest orders that are confirmed are those of this sitting, as it stands. @param {string} id @param {State} state @param {any} data */
+/** Whether the newest orders that are confirmed are those of this sitting and say all that was said in it. @param {string} id @param {State} state @param {any} data */
 export function isAllConfirmed(id, { present }, data) {
   const filled = OUTCOMES.filter((outcome) => present.orders[outcome].length > 0);
   const isConfirmed = (/** @type {Outcome} */ outcome) => {
     const ranking = data.rankings[outcome];
     return ranking?.sitting_id === id && isSame(ranking.order, present.orders[outcome]);
   };
-  return filled.length > 0 && filled.every(isConfirmed);
+  return filled.length > 0 && filled.every(isConfirmed) && retold({ present }).length === 0;
 }
 
-/** All that was said beside the orders, said again. @param {State} state @returns {Change[]} */
+/** All that was said beside the orders, said again. @param {Pick<State, "present">} state @returns {Change[]} */
 export function retold({ present: { answers, gaps, stretches } }) {
   const means = "page";
   const of = (/** @type {Outcome} */ outcome) => [

@@ -39,7 +39,7 @@ export class Journal {
   #shelf;
   #belongings;
   #lastStraw;
-  /** What the storage does not have yet, by number. @type {Map<number, LoggedEvent>} */
+  /** What the storage is not known to have, by number. @type {Map<number, LoggedEvent>} */
   #unkept = new Map();
   /** @type {Entry | null} */
   #entry = null;
@@ -87,8 +87,8 @@ export class Journal {
     if (entry.id !== this.#entry?.id) this.#own(entry);
     this.#entry = entry;
     for (const event of events) this.#unkept.set(event.n, event);
-    // What could not be kept before goes along: a log with a hole in it is none.
-    void this.#write(entry, this.#lasts ? events : [...this.#unkept.values()]);
+    // All that is not known to be there goes along, also what is on its way: a log with a hole in it is none.
+    void this.#write(entry, [...this.#unkept.values()]);
   }
 
   /** The page is being closed: what is not in the storage goes where it can. */
