@@ -7,7 +7,7 @@ import pytest
 from sqlalchemy import text
 
 from app.config import WAYS
-from app.rankings import replay
+from app.rankings import replay, sittings
 from tests.factories import make_demonstration, make_ranking, make_world
 from tests.sitting import Sitting
 
@@ -179,10 +179,13 @@ def test_a_sitting_begins_with_ones_own_attempts_as_they_were_drawn(client, othe
         [drawn[::-1], [failed]], [[*drawn, foreign], []], [drawn, [elsewhere]], [[*drawn, failed], []], [[], drawn],
         [[*drawn, drawn[0]], []], [[NOBODYS], []],
     ]  # fmt: skip
-    for success, failure in wrong:
-        sitting = Sitting(client, world)
-        sitting.begin(orders={"success": [[one] for one in success], "failure": [[one] for one in failure]})
-        assert error(sitting.send(), 422, "invalid")["fields"]["n"] == "0"
+    as_drawn, as_left = [dict.fromkeys(("success", "failure"), origin) for origin in ("random", "draft")]
+    for origins, told in ((as_drawn, wrong), (as_left, wrong[1:])):
+        for success, failure in told:
+            sitting = Sitting(client, world)
+            orders = {"success": [[one] for one in success], "failure": [[one] for one in failure]}
+            sitting.begin(orders=orders, origins=origins)
+            assert error(sitting.send(), 422, "invalid")["fields"]["n"] == "0"
     tied = Sitting(client, world)
     tied.begin(orders={"success": [drawn], "failure": []})
     error(tied.send(), 422, "invalid")
@@ -216,6 +219,25 @@ def test_two_requests_at_once_store_every_event_once(client, sitting, ids):
         sender.join()
     assert [answer.json() for answer in answers] == [{"id": sitting.id, "n_events": 61}] * 6
     assert stored(client) == 61
+
+
+@pytest.mark.parametrize("is_begun", [True, False])
+def test_a_request_that_another_one_overtakes_after_its_check_begins_anew(client, sitting, ids, monkeypatch, is_begun):
+    if is_begun:
+        sitting.send()
+    sitting.do("watch", id=ids[0])
+    check, answers = sittings._check, []
+
+    def overtaken(*told):
+        batch = check(*told)
+        if not answers:
+            answers.append("the first to check is overtaken")
+            answers.append(sitting.send())
+        return batch
+
+    monkeypatch.setattr(sittings, "_check", overtaken)
+    assert sitting.send().json() == answers[1].json() == {"id": sitting.id, "n_events": 2}
+    assert stored(client) == 2
 
 
 def test_a_log_is_gone_through_again_by_a_server_that_has_forgotten_it(client, sitting, ids):

@@ -146,7 +146,17 @@ test("a stranger finds nothing of it, and leaves it as it was", async () => {
   browser.cards = { success: ["s"], failure: [] };
   const second = await browser.open("second");
   assert.equal(second.order, "s");
+  await browser.parcels.add({
+    kind: "ranking",
+    id: "refused",
+    worldId: "w",
+    sittingId: first.sitting.id,
+    outcome: "success",
+    body: { order: first.sitting.orders.success, sitting: { id: first.sitting.id, events: [{ n: 0 }] } },
+    refusal: "You have no such sitting.",
+  });
   second.close();
+  assert.equal((await browser.open("again")).sitting.id, second.sitting.id);
   browser.cards = cards;
   browser.entries.delete(second.sitting.id);
   assert.equal((await browser.open("third")).order, first.order);
@@ -330,6 +340,41 @@ test("what was refused while the page was closed is told to the next", async () 
   const second = await browser.open("second");
   await assert.rejects(second.atFirst.success.done, { status: 409, code: "new_attempts", fields: { missing: "d" } });
   assert.deepEqual([second.sitting.pending, await browser.parcels.all()], [{}, []]);
+});
+
+test("what was refused while another tab was at work is told to the next page all the same", async () => {
+  const browser = new Browser();
+  const [first, second] = [await busy(browser), await browser.open("second")];
+  browser.server.isAway = true;
+  void first.sitting.confirm("success", MINE);
+  await first.settle();
+  first.close();
+  browser.server.isAway = false;
+  browser.server.refusals.push({ path: /rankings/, status: 409, code: "stale_version", fields: { version: "1" } });
+  second.top("c");
+  await second.settle();
+  second.close();
+  browser.entries.get(second.sitting.id).savedAt += 1000;
+  const third = await browser.open("third");
+  assert.deepEqual([third.sitting.id, third.order], [first.sitting.id, first.order]);
+  await assert.rejects(third.atFirst.success.done, { code: "stale_version" });
+});
+
+test("an order that is damaged where it waits stops no page", async () => {
+  const browser = new Browser();
+  const first = await busy(browser);
+  await first.settle();
+  browser.server.isAway = true;
+  void first.sitting.confirm("success", MINE);
+  await first.settle();
+  first.close();
+  for (const damage of [{ order: null }, { sitting: { id: first.sitting.id, events: [] } }]) {
+    const [parcel] = (await browser.parcels.all()).filter(({ kind }) => kind === "ranking");
+    await browser.parcels.add({ ...parcel, body: { ...parcel.body, ...damage } });
+    const next = await browser.open("next");
+    assert.deepEqual([next.order, next.sitting.pending], [first.order, {}]);
+    next.close();
+  }
 });
 
 test("confirmed and acknowledged, the page opened anew begins anew, from what counts", async () => {

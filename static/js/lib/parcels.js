@@ -158,7 +158,8 @@ export function isRefused({ refusal }) {
 export function isSound(parcel) {
   if (parcel?.kind === "discard") return typeof parcel.attemptId === "string" && typeof parcel.discarded === "boolean";
   if (parcel?.kind === "log") return isLog(parcel.sittingId, parcel.events);
-  if (parcel?.kind === "ranking") return isLog(parcel.body?.sitting?.id, parcel.body?.sitting?.events);
+  if (parcel?.kind === "ranking")
+    return Array.isArray(parcel.body?.order) && isLog(parcel.body.sitting?.id, parcel.body.sitting?.events);
   const { world, body } = parcel ?? {};
   const isAttempt = Array.isArray(body?.actions) && Array.isArray(body?.step_ms) && typeof body?.ending === "string";
   return isAttempt && body.id === parcel.id && world !== null && typeof world === "object";

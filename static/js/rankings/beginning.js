@@ -1,9 +1,12 @@
 /** How a sitting begins, and how one that was left goes on: from the page data and what this browser kept. */
 
+import { isRefused, isSound } from "#js/lib/parcels.js";
 import { flat, isSame, reconcile } from "#js/rankings/order.js";
 import { apply, beginState } from "#js/rankings/sitting-state.js";
 import { Client } from "#js/worlds/client.js";
 
+/** @typedef {import("#js/lib/parcels.js").Parcel} Parcel */
+/** @typedef {import("#js/lib/parcels.js").RankingParcel} RankingParcel */
 /** @typedef {import("#js/rankings/order.js").Order} Order */
 /** @typedef {import("#js/rankings/sitting-state.js").Change} Change */
 /** @typedef {import("#js/rankings/sitting-state.js").Outcome} Outcome */
@@ -86,9 +89,27 @@ export function isEmpty(orders) {
 
 /** Whether the visitor who is here has none of its attempts, not even a discarded one. @param {State} state @param {any} data */
 export function isStrange({ present: { orders } }, data) {
-  const known = new Set(data.demonstrations.map((/** @type {any} */ one) => one.id));
   const ids = OUTCOMES.flatMap((outcome) => flat(orders[outcome]));
-  return ids.length > 0 && !ids.some((id) => known.has(id));
+  return ids.length > 0 && !areKnown(ids, data);
+}
+
+/** @param {readonly string[]} ids @param {any} data whether any of them is there */
+function areKnown(ids, data) {
+  const known = new Set(data.demonstrations.map((/** @type {any} */ one) => one.id));
+  return ids.some((id) => known.has(id));
+}
+
+/** Orders that wait or were refused; what is damaged cannot be told from nothing. @param {readonly Parcel[]} parcels @returns {RankingParcel[]} */
+export function ordersAmong(parcels) {
+  return parcels
+    .filter((one) => one.kind === "ranking" && isSound(one))
+    .map((one) => /** @type {RankingParcel} */ (one));
+}
+
+/** The sittings of whoever is here that were refused an order; if their page was closed by then, nobody was told. @param {readonly Parcel[]} parcels @param {any} data */
+export function refusedIn(parcels, data) {
+  const refused = ordersAmong(parcels).filter((one) => isRefused(one) && areKnown(flat(one.body.order), data));
+  return new Set(refused.map(({ sittingId }) => sittingId));
 }
 
 /** Whether the newest orders that are confirmed are those of this sitting and say all that was said in it. @param {string} id @param {State} state @param {any} data */

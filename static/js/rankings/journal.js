@@ -63,13 +63,13 @@ export class Journal {
   }
 
   /**
-   * The sitting in this world that this tab goes on with: its own from before a reload, else the one left last. Null
-   * where there is none, or another tab holds it.
-   * @param {string} worldId @returns {Promise<{entry: Entry, events: LoggedEvent[]} | null>}
+   * The sitting in this world that this tab goes on with: its own from before a reload, else one of the `awaited`, else
+   * the one left last. Null where there is none, or another tab holds it.
+   * @param {string} worldId @param {ReadonlySet<string>} awaited @returns {Promise<{entry: Entry, events: LoggedEvent[]} | null>}
    */
-  async take(worldId) {
+  async take(worldId, awaited) {
     await this.#recover();
-    const id = newest(await this.#entriesOf(worldId))?.id;
+    const id = next(await this.#entriesOf(worldId), awaited)?.id;
     if (id === undefined || !(await this.#belongings.take(nameOf(id), RELOAD_MS))) return null;
     // Read once it is ours: until then the other page may have written on.
     const entry = (await this.#entriesOf(worldId)).find((one) => one.id === id);
@@ -148,10 +148,11 @@ export class Journal {
   }
 }
 
-/** @param {Entry[]} entries */
-function newest(entries) {
+/** @param {Entry[]} entries @param {ReadonlySet<string>} awaited */
+function next(entries, awaited) {
   const mine = entries.find(({ id, worldId }) => id === remembered(worldId));
-  return mine ?? entries.toSorted((a, b) => b.savedAt - a.savedAt)[0];
+  const newestFirst = entries.toSorted((a, b) => b.savedAt - a.savedAt);
+  return mine ?? newestFirst.find(({ id }) => awaited.has(id)) ?? newestFirst[0];
 }
 
 /** @returns {Shelf} */

@@ -93,7 +93,8 @@ export class Sitting {
 
   /** @param {any} data of the page @param {Around} around */
   static async of(data, around) {
-    const left = await around.journal.take(data.world.id);
+    const awaited = beginning.refusedIn(await around.outbox.all(), data);
+    const left = await around.journal.take(data.world.id, awaited);
     const work = left ? beginning.rebuilt(left.events) : null;
     const sitting = left && work ? await Sitting.#goOn(data, { ...left, ...work }, around) : null;
     // What cannot be read is left where it is, and out of the way.
@@ -106,7 +107,7 @@ export class Sitting {
     const { id, worldId, acknowledged, versions } = entry;
     // Another person's, or one's own from before the cookie was lost: it is not for this page to change.
     if (beginning.isStrange(state, data)) return around.journal.leave(id);
-    const parcels = (await around.outbox.all()).filter((one) => one.kind === "ranking" && one.sittingId === id);
+    const parcels = beginning.ordersAmong(await around.outbox.all()).filter((one) => one.sittingId === id);
     if (parcels.length === 0 && beginning.isAllConfirmed(id, state, data)) {
       const events = log.slice(acknowledged);
       if (events.length > 0) await around.outbox.add({ kind: "log", id: logId(id), worldId, sittingId: id, events });
@@ -117,7 +118,7 @@ export class Sitting {
     const book = { id, worldId, log, acknowledged: Math.min(acknowledged, log.length), versions: { ...versions } };
     const sitting = new Sitting({ book, state, showTotals: data.options.show_totals }, around);
     sitting.#bringUpToDate(data, entry);
-    sitting.#dispatch.adopt(/** @type {import("#js/lib/parcels.js").RankingParcel[]} */ (parcels));
+    sitting.#dispatch.adopt(parcels);
     return sitting;
   }
 
