@@ -1,14 +1,15 @@
 """The sittings: how people came to their orders, event by event. Nothing here is ever changed or taken out."""
 
 from datetime import datetime
-from typing import Any
+from typing import Any, Literal, TypeAlias, get_args
 
 from sqlalchemy import JSON, CheckConstraint, ForeignKey, Index, String
 from sqlalchemy.orm import Mapped, mapped_column
 
 from app.models.base import Base
 
-MEANS = ("mouse", "touch", "pen", "key", "button", "page")
+Means: TypeAlias = Literal["mouse", "touch", "pen", "key", "button", "page"]
+MEANS: tuple[Means, ...] = get_args(Means)
 
 
 class Sitting(Base):
@@ -33,7 +34,7 @@ class RankingEvent(Base):
     sitting_id: Mapped[str] = mapped_column(ForeignKey("sitting.id", ondelete="CASCADE"), primary_key=True)
     n: Mapped[int] = mapped_column(primary_key=True, comment="0, 1, 2 … in the sitting, without a gap")
     type: Mapped[str] = mapped_column(String(12))
-    means: Mapped[str] = mapped_column(String(6))
+    means: Mapped[Means] = mapped_column(String(6))
     at_ms: Mapped[float] = mapped_column(comment="since the sitting began, by the browser's clock; never falls")
     event: Mapped[dict[str, Any]] = mapped_column(JSON, comment="the whole event as it was sent, n and all")
     created_at: Mapped[datetime] = mapped_column(comment="when it was received")

@@ -6,11 +6,9 @@ from app.demonstrations.queries import all_in_world
 from app.errors import NotFound, NotShown
 from app.models import Ranking
 from app.rankings import queries
-from app.rankings.content import Outcome
+from app.rankings.content import PLURAL, Outcome
 from app.rankings.schemas import AgreementOut
 from irl_core import agreement_of
-
-PLURAL = {"success": "successes", "failure": "failures"}
 
 
 def of_the_newest(

@@ -10,6 +10,7 @@ Order: TypeAlias = tuple[tuple[str, ...], ...]
 """Groups of ids from top to bottom (best success, worst failure first); a group of several is a tie."""
 
 OUTCOMES: tuple[Outcome, ...] = ("success", "failure")
+PLURAL: Mapping[Outcome, str] = {"success": "successes", "failure": "failures"}
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,13 +11,13 @@ from pydantic_core import PydanticCustomError
 from app.config import Way
 from app.demonstrations.record import MOST_STEPS, Browser, Count, Flag, Ms
 from app.demonstrations.schemas import Id
+from app.models.sitting import Means
 from app.rankings.content import Outcome
 
 MOST_RANKED = 200
 MOST_EVENTS = 20_000
 """In a sitting. The longest day of moving cards comes to a few thousand."""
 
-Means: TypeAlias = Literal["mouse", "touch", "pen", "key", "button", "page"]
 Group = Annotated[list[Id], FailFast(), Field(min_length=1, max_length=MOST_RANKED)]
 Groups = Annotated[list[Group], FailFast(), Field(max_length=MOST_RANKED)]
 Ids = Annotated[list[Id], FailFast(), Field(max_length=MOST_RANKED)]

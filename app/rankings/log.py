@@ -6,13 +6,12 @@ from hashlib import sha256
 from typing import Any, TypeAlias
 
 from app.rankings import replay
-from app.rankings.content import OUTCOMES, Content, Outcome, as_order, flat
+from app.rankings.content import OUTCOMES, PLURAL, Content, Outcome, as_order, flat
 from app.rankings.queries import Attempt
 from app.rankings.replay import InvalidEvent, State
 
 Event: TypeAlias = dict[str, Any]
 
-PLURAL = {"success": "successes", "failure": "failures"}
 MOST_HELD = 4_000_000
 """Cards, answers, gaps and stretches, times the steps of undo: 2,000 steps with 80 cards hold 160,000."""
 MOST_CARRIED = 40_000_000

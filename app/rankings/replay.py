@@ -24,8 +24,8 @@ is one step of undo: `mark` is how things stood when it was lifted, and a change
     watch, compare, hidden, visible, resumed     change nothing
 
 `touched` says of which list the person has ever changed anything. An event that could not happen raises `InvalidEvent`.
-That an event has its fields, and of the right kind, is the business of `schemas.py`; that the ids are theirs, and the
-numbers and times in order, that of `sittings.py`.
+That an event has its fields, and of the right kind, is the business of `events.py`; that the ids are theirs and
+the times in order, that of `log.py`; the numbers, that of `sittings.py`.
 """
 
 from collections.abc import Callable, Iterable, Mapping

@@ -10,9 +10,9 @@ from app.errors import Conflict, Unprocessable
 from app.kit.clock import now
 from app.models import Ranking
 from app.rankings import queries, replay
-from app.rankings.content import Outcome, as_order, flat
+from app.rankings.content import PLURAL, Outcome, as_order, flat
 from app.rankings.events import AnyEvent, as_sent
-from app.rankings.log import PLURAL, Log, start_order
+from app.rankings.log import Log, start_order
 from app.rankings.queries import Attempt
 from app.rankings.schemas import RankingIn
 from app.rankings.sittings import Sittings, Whose

@@ -315,6 +315,9 @@ def test_the_same_confirmation_again_gives_the_version_it_gave(client, world, si
     sitting.send()
     assert sitting.put("success", order, events=sitting.log[:3]).json() == first
     error(sitting.put("success", order[::-1], events=sitting.log[:3]), 422, "log_differs")
+    assert (
+        "must be its confirm" in error(sitting.put("failure", order, events=sitting.log[:3]), 422, "invalid")["message"]
+    )
     client.delete(f"/api/v1/demonstrations/{ids[0]}/discard")
     make_ranking(client, world, "success", ids)
     assert sitting.put("success", order, events=sitting.log[:3]).json() == first | {"counts": False}

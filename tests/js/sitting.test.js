@@ -288,6 +288,37 @@ test("offline it waits and says so; confirmed again meanwhile, the last one coun
   assert.equal(logOf(browser, tab).filter(({ type }) => type === "confirm").length, 2);
 });
 
+test("confirmed again while one is on its way, each is a version, and the page waits for the last", async () => {
+  const browser = new Browser();
+  const tab = await busy(browser);
+  await tab.settle();
+  const [answer, seen] = [globalThis.fetch, []];
+  let again;
+  globalThis.fetch = async (url, options) => {
+    if (/rankings/.test(url) && !again) {
+      tab.top("b");
+      again = tab.sitting.confirm("success", MINE).then(({ ranking }) => seen.push(ranking.version));
+    }
+    return answer(url, options);
+  };
+  const first = tab.sitting.confirm("success", MINE);
+  await tab.settle();
+  assert.deepEqual([(await first).ranking.version, seen, tab.sitting.pending], [2, [2], {}]);
+  assert.deepEqual(browser.server.versions.success.at(-1).order, tab.sitting.orders.success);
+});
+
+test("a server that takes every log and finds that none leads to the order is asked twice", async () => {
+  const browser = new Browser();
+  const tab = await busy(browser);
+  await tab.settle();
+  const never = { path: /rankings/, status: 422, code: "log_differs" };
+  browser.server.refusals.push(never, never, never, never);
+  const { order } = tab;
+  const confirmed = tab.sitting.confirm("success", MINE);
+  await Promise.all([tab.settle(), assert.rejects(confirmed, { status: 422, code: "log_differs" })]);
+  assert.deepEqual([browser.server.refusals.length, tab.order, tab.sitting.pending], [2, order, {}]);
+});
+
 test("what was confirmed offline before the page was closed is still known, and arrives", async () => {
   const browser = new Browser();
   const first = await busy(browser);

@@ -23,11 +23,6 @@ const RESOLUTION = 1e-6;
  * @property {Uint8Array[]} isAbove i stands above j, or beside it, by some chain of answers
  */
 
-/** @param {readonly string[]} ids @param {readonly Answer[]} answers @returns {string[][]} groups, the top first */
-export function orderFromComparisons(ids, answers) {
-  return orderOf(evidenceOf(ids, answers)).map((group) => group.map((i) => /** @type {string} */ (ids[i])));
-}
-
 /** @param {readonly string[]} ids @param {readonly Answer[]} answers @returns {Evidence} */
 export function evidenceOf(ids, answers) {
   const number = new Map(ids.map((id, i) => [id, i]));
@@ -53,8 +48,8 @@ export function isContradictory({ ids, wins, isAbove }) {
   return ids.some((_, i) => ids.some((_, j) => at(wins, i, j) > 0 && isAbove[j]?.[i] === 1));
 }
 
-/** @param {Evidence} evidence @param {{means: number[]}} [strengths] @returns {number[][]} groups of numbers, the top first */
-export function orderOf(evidence, { means } = strengthsOf(evidence)) {
+/** @param {Evidence} evidence @param {{means: number[]}} strengths @returns {number[][]} groups of numbers, the top first */
+export function orderOf(evidence, { means }) {
   const { wins } = evidence;
   const strength = means.map((x) => Math.floor(x / RESOLUTION + 0.5));
   return componentsOf(evidence, strength).flatMap((component) => {

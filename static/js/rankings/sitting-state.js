@@ -1,6 +1,6 @@
 /**
  * What a sitting has come to, from its events alone: the orders, what was said beside them, and the way back. No page, no
- * clock. `app/rankings/replay.py` is the twin on the server; ARCHITECTURE.md lists the events.
+ * clock. `app/rankings/replay.py` is the twin on the server; docs/codebook.md lists the events.
  *
  * The *content* is what a person states: both orders, answers about pairs, gaps, stretches. Undo and redo go from content
  * to content. While a card is lifted everything done is one step of undo (`mark` is where that began).
