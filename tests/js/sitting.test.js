@@ -508,11 +508,15 @@ for (const by of ["log", "order"]) {
   test(`where the server would not have the log (met by the ${by}) the work goes on in another sitting, and is confirmed in it`, async () => {
     const browser = new Browser();
     const tab = await busy(browser);
+    const all = { means: "key", outcome: "success" };
+    tab.sitting.do({ ...all, type: "answer", a: "a", b: "c", said: "alike" });
+    tab.sitting.do({ ...all, type: "gap", above: "b", below: "a", value: 7 });
+    tab.sitting.do({ ...all, type: "stretch", id: "a", from: 1, to: 2, kind: "good" });
     await tab.settle();
     const before = tab.sitting.id;
     const { present } = tab.sitting.state;
-    const other = { ...logOf(browser, tab).at(-1), n: 9, at_ms: 1 };
-    browser.server.logs.get(before).push({ ...other, type: "watch", id: "a" });
+    const last = logOf(browser, tab).at(-1);
+    browser.server.logs.get(before).push({ n: last.n + 1, at_ms: last.at_ms, type: "watch", means: "mouse", id: "a" });
     if (by === "log") {
       tab.sitting.do({ type: "watch", means: "mouse", id: "b" });
       await tab.settle();

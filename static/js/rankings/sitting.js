@@ -104,7 +104,7 @@ export class Sitting {
 
   /** @param {any} data @param {{entry: Entry, state: State, log: Event[]}} left @param {Around} around @returns {Promise<Sitting | null>} */
   static async #goOn(data, { entry, state, log }, around) {
-    const { id, worldId, acknowledged, versions } = entry;
+    const { id, worldId, acknowledged, versions, savedAt } = entry;
     // Another person's, or one's own from before the cookie was lost: it is not for this page to change.
     if (beginning.isStrange(state, data)) return around.journal.leave(id);
     const parcels = beginning.ordersAmong(await around.outbox.all()).filter((one) => one.sittingId === id);
@@ -117,7 +117,7 @@ export class Sitting {
     if (acknowledged === 0 && beginning.isEmpty(log[0].orders)) return around.journal.drop(id);
     const book = { id, worldId, log, acknowledged: Math.min(acknowledged, log.length), versions: { ...versions } };
     const sitting = new Sitting({ book, state, showTotals: data.options.show_totals }, around);
-    sitting.#bringUpToDate(data, entry);
+    sitting.#bringUpToDate(data, savedAt);
     sitting.#dispatch.adopt(parcels);
     return sitting;
   }
@@ -217,8 +217,8 @@ export class Sitting {
     this.#around.journal.rescue();
   }
 
-  /** After a reload, or a night. @param {any} data @param {Entry} entry */
-  #bringUpToDate(data, { id, savedAt }) {
+  /** After a reload, or a night. @param {any} data @param {number} savedAt */
+  #bringUpToDate(data, savedAt) {
     const awayMs = Date.now() - savedAt;
     // A clock that was set back says nothing.
     this.do({ type: "resumed", means: "page", away_ms: awayMs >= 0 ? awayMs : null });
@@ -227,8 +227,6 @@ export class Sitting {
     for (const outcome of beginning.OUTCOMES) {
       const news = beginning.newsOf(data, outcome, this.orders[outcome]);
       if (news.added.length + news.removed.length > 0) this.do({ type: "cards", means: "page", outcome, ...news });
-      const ranking = data.rankings[outcome];
-      if (ranking?.sitting_id === id) this.#book.versions[outcome] = ranking.version;
     }
     const { ways } = data.options;
     if (!ways.includes(this.#state.way)) this.do({ type: "way", means: "page", way: ways[0] });
