@@ -149,6 +149,56 @@ def test_two_cards_are_marked_to_be_compared(six: Page) -> None:
     expect(nth(six, 0).locator('[data-act="compare"]')).to_have_attribute("aria-pressed", "false")
 
 
+def test_by_mouse_the_next_step_of_comparing_is_seen(six: Page) -> None:
+    hint = six.locator("#list-success").locator("xpath=ancestor::section").locator(".column-hint")
+    expect(hint).to_be_hidden()
+    stands = nth(six, 0).bounding_box()
+    nth(six, 0).locator('[data-act="compare"]').click()
+    assert nth(six, 0).bounding_box() == stands
+    ways.expect_said(six, f"To compare: {words(nth(six, 0))}. Now press Compare on the other one.")
+    expect(hint).to_be_visible()
+    expect(six.locator(".column-hint:visible")).to_have_count(1)
+    nth(six, 0).locator('[data-act="compare"]').click()
+    expect(hint).to_be_hidden()
+
+
+def test_the_last_undo_keeps_the_focus_and_one_more_says_that_there_is_none(six: Page) -> None:
+    nth(six, 0).locator('[data-act="down"]').click()
+    undo = six.locator("#undo")
+    undo.focus()
+    six.keyboard.press("Enter")
+    ways.expect_said(six, "Undone.")
+    expect(undo).to_be_disabled()
+    expect(undo).to_be_focused()
+    six.keyboard.press("Enter")
+    ways.expect_said(six, "There is nothing to undo.")
+
+
+def test_where_nothing_can_be_ordered_nothing_is_explained_and_the_way_on_stands_there(
+    page: Page, base_url: str
+) -> None:
+    world_id = ranking.world_with(page, base_url, successes=1)
+    ranking.open_lists(page, world_id, n_cards=1)
+    for part in ("#how", "#undo", "#redo", "#confirm"):
+        expect(page.locator(part)).to_be_hidden()
+    expect(nth(page, 0).locator("button:enabled")).to_have_count(0)
+    expect(page.locator("#rank-state")).to_have_text("One attempt alone needs no order. Go on, or play more.")
+    expect(page.locator("#learn")).to_be_visible()
+
+
+def test_in_a_low_window_the_foot_covers_no_card(page: Page, base_url: str) -> None:
+    page.set_viewport_size({"width": 640, "height": 400})
+    world_id = ranking.world_with(page, base_url, successes=6)
+    ranking.open_lists(page, world_id, n_cards=6)
+    nth(page, 2).focus()
+    box, foot = nth(page, 2).bounding_box(), page.locator(".rank-next").bounding_box()
+    assert box is not None
+    assert foot is not None
+    assert box["y"] >= 0
+    assert box["y"] + box["height"] <= 400
+    assert foot["y"] >= 400
+
+
 def test_a_drag_shows_every_weight_it_would_make_and_moves_nothing_else(six: Page) -> None:
     before = ranking.order_shown(six, "success")
     last, second = before[5][0], before[1][0]

@@ -46,6 +46,7 @@ export class Card {
     element.setAttribute("aria-label", labelOf(this.words, { rank, n, nOthers }));
     this.button("up").disabled = isFirst && !isTied;
     this.button("down").disabled = isLast && !isTied;
+    this.button("compare").disabled = n === 1;
     const tie = this.button("tie");
     tie.disabled = isFirst && !isTied;
     tie.setAttribute("aria-pressed", String(isTied));

@@ -104,7 +104,7 @@ export class Hands {
     } else if (first === card) this.unmark();
     else {
       this.#mark(card);
-      announce(say.marked(this.#told(card)));
+      announce(say.marked(this.#told(card), means === "key"));
     }
   }
 

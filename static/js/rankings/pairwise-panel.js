@@ -3,7 +3,7 @@
  * failures. All it knows it reads from the sitting's answers, so that undo and a reload bring back the question that was.
  */
 
-import { announce, announceToo } from "#js/lib/announce.js";
+import { announce } from "#js/lib/announce.js";
 import { byId } from "#js/lib/dom.js";
 import { isTaken } from "#js/lib/keys.js";
 import { flat, isSame } from "#js/rankings/order.js";
@@ -69,7 +69,6 @@ export class PairwisePanel {
   takeBack(means) {
     if (this.#nAnswers === 0) return announce("There is no answer to take back yet.");
     this.#parts.sitting.do({ type: "undo", means });
-    announce("Taken back.");
   }
 
   /** The lists stand as the answers say. @param {Outcome} outcome @param {Means} means */
@@ -145,7 +144,7 @@ export class PairwisePanel {
     const { sitting } = this.#parts;
     const isHere = sitting.state.way === "pairwise";
     if (isHere && OUTCOMES.some((outcome) => this.#isBeforeItsOrder(outcome))) sitting.do({ type, means });
-    else if (this.#asked) announceToo(this.#questionWords(this.#asked));
+    else if (isHere) this.#tellAgain(type === "undo" ? "Taken back." : "Done again.");
   }
 
   /** Whether we stand between the last answer and the order that came of it. @param {Outcome} outcome */
@@ -163,8 +162,13 @@ export class PairwisePanel {
     const before = this.#asked;
     this.#asked = isChosen ? this.#nextQuestion() : null;
     this.#root.dataset.stage = this.#asked ? "asking" : "ordering";
-    byId("pairs-asking").hidden = !this.#asked;
-    byId("pairs-done").hidden = this.#asked !== null;
+    const [shown, gone, first] = this.#asked
+      ? ["pairs-asking", "pairs-done", "pairs-title"]
+      : ["pairs-done", "pairs-asking", "pairs-done"];
+    const hadFocus = byId(gone).contains(document.activeElement);
+    byId(shown).hidden = false;
+    byId(gone).hidden = true;
+    if (hadFocus) byId(first).focus();
     if (this.#asked) this.#showQuestion(this.#asked, before);
     else this.#showDone();
   }
@@ -206,6 +210,11 @@ export class PairwisePanel {
     if (this.#asked) return announce(`${said} ${this.#questionWords(this.#asked)}`);
     byId("pairs-done").focus();
     announce(`${said} ${byId("pairs-done-text").textContent}`);
+  }
+
+  /** The question that is back, in place of any before it: whoever goes back quickly hears the last one. @param {string} said */
+  #tellAgain(said) {
+    if (this.#asked) announce(`${said} ${this.#questionWords(this.#asked)}`);
   }
 
   /** @param {{outcome: Outcome, next: [string, string], standing: Standing}} question */

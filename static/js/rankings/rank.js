@@ -79,14 +79,17 @@ class RankPage {
   #show() {
     const { past, future, way } = this.#sitting.state;
     this.#root.dataset.way = way;
-    button("undo").disabled = past.length === 0;
-    button("redo").disabled = future.length === 0;
+    // Not truly disabled: the last press would take the focus away.
+    byId("undo").setAttribute("aria-disabled", String(past.length === 0));
+    byId("redo").setAttribute("aria-disabled", String(future.length === 0));
     for (const radio of radios(this.#root)) radio.checked = radio.value === way;
   }
 
   /** @param {"undo" | "redo"} type @param {Means} means */
   #travel(type, means) {
-    if (this.#sitting.do({ type, means })) announce(type === "undo" ? "Undone." : "Done again.");
+    const isDone = this.#sitting.do({ type, means });
+    if (type === "undo") announce(isDone ? "Undone." : "There is nothing to undo.");
+    else announce(isDone ? "Done again." : "There is nothing to do again.");
   }
 
   /** @param {MouseEvent} event */
@@ -120,11 +123,6 @@ class RankPage {
 /** @param {HTMLElement} root @returns {NodeListOf<HTMLInputElement>} */
 function radios(root) {
   return root.querySelectorAll('[name="way"]');
-}
-
-/** @param {string} id */
-function button(id) {
-  return /** @type {HTMLButtonElement} */ (byId(id));
 }
 
 const data = pageData();

@@ -59,8 +59,9 @@ export const say = {
   /** @param {-1 | 1} way */
   noFurther: (way) => (way < 0 ? "It stands first already." : "It stands last already."),
   nothingAbove: "Nothing stands above it that it could be tied with.",
-  /** @param {Told} card */
-  marked: ({ words }) => `To compare: ${words}. Press C on the other one; Escape forgets it.`,
+  /** @param {Told} card @param {boolean} isByKey */
+  marked: ({ words }, isByKey) =>
+    `To compare: ${words}. ${isByKey ? "Press C on the other one; Escape forgets it." : "Now press Compare on the other one."}`,
   unmarked: "Nothing is marked to compare any more.",
   /** @param {Outcome} outcome */
   sorted: (outcome) =>
