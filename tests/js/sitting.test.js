@@ -532,6 +532,19 @@ for (const by of ["log", "order"]) {
   });
 }
 
+test("what the storage did not take of a sitting never gets into the one that goes on with its work", async () => {
+  const browser = new Browser();
+  const tab = await browser.open("tab");
+  browser.isFull = true;
+  for (const id of ["a", "b", "a", "b", "c"]) tab.top(id);
+  browser.server.refusals.push({ path: /events/, status: 409, code: "conflict" });
+  await tab.settle();
+  browser.isFull = false;
+  tab.top("a");
+  await tab.settle();
+  assert.deepEqual(await browser.shelf.events(tab.sitting.id), logOf(browser, tab));
+});
+
 test("a server that has no logs at all is asked no more than twice, and nothing on the page is lost", async () => {
   const browser = new Browser();
   const no = (status, code, fields) =>
