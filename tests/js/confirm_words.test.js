@@ -54,7 +54,7 @@ test("the line beside the button says what counts and what has yet to be confirm
 });
 
 test("an order that waits says why, where it is kept and that it is sent by itself", () => {
-  const kept = "Your order of your failures is kept in this browser and sent by itself; then it counts.";
+  const kept = "The order of your failures is kept in this browser and sent by itself; then it counts.";
   const cases = [
     [{ status: 0, retryAfterMs: null }, "The server cannot be reached just now."],
     [{ status: 503, retryAfterMs: null }, "The server is busy just now."],
@@ -66,7 +66,7 @@ test("an order that waits says why, where it is kept and that it is sent by itse
   for (const [trouble, why] of cases) assert.equal(stateSentence({ ...waiting, trouble }), `${why} ${kept}`);
   assert.equal(
     stateSentence({ ...waiting, trouble: { status: 0, retryAfterMs: null }, lasts: false }),
-    "The server cannot be reached just now. Your order of your failures is in this page alone, so keep it open: it is sent by itself; then it counts.",
+    "The server cannot be reached just now. The order of your failures is in this page alone, so keep it open: it is sent by itself; then it counts.",
   );
 });
 

@@ -78,7 +78,7 @@ export function countsWords(counts) {
 /** @param {Outcome[]} outcomes @param {Trouble} trouble @param {boolean} lasts */
 function waitingSentence(outcomes, trouble, lasts) {
   const where = lasts ? "kept in this browser and" : "in this page alone, so keep it open: it is";
-  return `${troubleSentence(trouble)} Your order of ${yours(outcomes)} is ${where} sent by itself; then it counts.`;
+  return `${troubleSentence(trouble)} The order of ${yours(outcomes)} is ${where} sent by itself; then it counts.`;
 }
 
 /** @param {Trouble} trouble */
