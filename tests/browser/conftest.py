@@ -62,6 +62,15 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveServer]:
 
 
 @pytest.fixture(scope="session")
+def discreet(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveServer]:
+    """A server whose study hides the totals."""
+    live = LiveServer(tmp_path_factory.mktemp("discreet"), {"IRLFR_SHOW_TOTALS": "false"})
+    live.start()
+    yield live
+    live.stop()
+
+
+@pytest.fixture(scope="session")
 def base_url(server: LiveServer) -> str:
     """Lets `page.goto("/")` find the server."""
     return server.address

@@ -531,15 +531,6 @@ def test_a_swapped_pair_can_be_watched(visitor: BrowserContext, base_url: str) -
     expect(page.locator("dialog[open]")).to_be_visible()
 
 
-@pytest.fixture(scope="module")
-def discreet(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveServer]:
-    """A server whose participants do not see their totals."""
-    live = LiveServer(tmp_path_factory.mktemp("discreet"), {"IRLFR_SHOW_TOTALS": "false"})
-    live.start()
-    yield live
-    live.stop()
-
-
 def test_where_totals_are_hidden_agreement_names_none(browser: Browser, discreet: LiveServer) -> None:
     for context in watched(browser.new_context(base_url=discreet.address)):
         page = rank_page(context, played(context, discreet.address))

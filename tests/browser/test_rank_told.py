@@ -367,18 +367,9 @@ def test_axe_finds_nothing(browser: Browser, base_url: str) -> None:
                 assert results.violations_count == 0, f"{state}, {scheme}:\n{results.generate_report()}"
 
 
-@pytest.fixture(scope="module")
-def discreet(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """The address of a server whose study hides the totals."""
-    live = LiveServer(tmp_path_factory.mktemp("discreet"), {"IRLFR_SHOW_TOTALS": "false"})
-    live.start()
-    yield live.address
-    live.stop()
-
-
-def test_a_study_that_hides_totals_hides_them_in_every_word(browser: Browser, discreet: str) -> None:
-    with ways.visit(browser, discreet) as page:
-        world_id = ranking.world_with(page, discreet, successes=3)
+def test_a_study_that_hides_totals_hides_them_in_every_word(browser: Browser, discreet: LiveServer) -> None:
+    with ways.visit(browser, discreet.address) as page:
+        world_id = ranking.world_with(page, discreet.address, successes=3)
         ranking.open_lists(page, world_id, n_cards=3)
         expect(page.locator(".card-total, [data-sort]")).to_have_count(0)
         card = words(nth(page, 1))
