@@ -168,7 +168,7 @@ test("versions tell which counts, when each was confirmed and how", () => {
   assert.equal(versionWords(one, true), "Version 3 · 10:42 · two at a time · counts");
   assert.equal(
     versionWords({ ...one, way: "lists", untouched: true }, false),
-    "Version 3 · 10:42 · in two lists · left as it was drawn",
+    "Version 3 · 10:42 · in two lists · nothing moved",
   );
   assert.equal(
     takenAgainSentence({ outcome: "success", version: 1, nNew: 0 }),

@@ -231,7 +231,7 @@ export function versionsSummary(outcome, { version, created_at }) {
 /** @param {Version} one @param {boolean} counts */
 export function versionWords({ version, created_at, way = "lists", untouched }, counts) {
   const parts = [`Version ${version}`, clockWords(created_at), WAY_WORDS[way] ?? WAY_WORDS.lists];
-  if (untouched) parts.push("left as it was drawn");
+  if (untouched) parts.push("nothing moved");
   if (counts) parts.push("counts");
   return parts.join(" · ");
 }
