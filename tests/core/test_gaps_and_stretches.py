@@ -3,6 +3,7 @@
 import json
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -40,7 +41,7 @@ def test_stretches_give_the_scores_and_the_order_of_the_vectors(vector):
 @given(st.lists(st.integers(1, 100), min_size=1, max_size=12))
 def test_neighbours_stand_as_far_apart_as_was_said(values):
     order = [[f"{k}"] for k in range(len(values) + 1)]
-    gaps = [{"above": f"{k}", "below": f"{k + 1}", "value": value} for k, value in enumerate(values)]
+    gaps: list[Any] = [{"above": f"{k}", "below": f"{k + 1}", "value": value} for k, value in enumerate(values)]
     positions = list(positions_from_gaps(order, gaps).values())
     assert [high - low for high, low in pairwise(positions)] == values
     assert positions[-1] == 0
@@ -48,7 +49,7 @@ def test_neighbours_stand_as_far_apart_as_was_said(values):
 
 @given(st.lists(st.sampled_from(["good", "bad", None]), min_size=1, max_size=30))
 def test_a_score_is_the_share_of_good_steps_less_the_share_of_bad_ones(kinds):
-    stretches = [{"from": k, "to": k, "kind": kind} for k, kind in enumerate(kinds, 1) if kind]
+    stretches: list[Any] = [{"from": k, "to": k, "kind": kind} for k, kind in enumerate(kinds, 1) if kind]
     balance = kinds.count("good") - kinds.count("bad")
     assert score_of_stretches(stretches, len(kinds)) == balance / len(kinds)
 
@@ -56,7 +57,7 @@ def test_a_score_is_the_share_of_good_steps_less_the_share_of_bad_ones(kinds):
 @given(st.dictionaries(st.text("abcdef", min_size=1), st.lists(st.sampled_from(["good", "bad", None]), max_size=9)))
 def test_the_worst_failures_stand_where_the_best_successes_would(marked):
     steps = {id_: len(kinds) for id_, kinds in marked.items()}
-    stretches = {
+    stretches: dict[str, list[Any]] = {
         id_: [{"from": k, "to": k, "kind": kind} for k, kind in enumerate(kinds, 1) if kind]
         for id_, kinds in marked.items()
     }
@@ -112,4 +113,4 @@ def test_an_attempt_has_a_whole_number_of_steps(steps):
 
 def test_an_order_is_of_successes_or_failures():
     with pytest.raises(InvalidRanking, match='"success" or "failure"'):
-        order_from_stretches({}, {"a": 3}, outcome="wins")
+        order_from_stretches({}, {"a": 3}, outcome="wins")  # type: ignore[arg-type]  # what the test is about
