@@ -29,6 +29,8 @@ VENV = ROOT / ".venv"
 SCRIPTS = VENV / ("Scripts" if os.name == "nt" else "bin")
 PYTHON = SCRIPTS / ("python.exe" if os.name == "nt" else "python")
 STAMP = VENV / "irlfr-setup.json"
+SIDE_BY_SIDE = ("-n", "2", "--dist", "loadfile")
+"""How the whole suite runs: a browser test is mostly waiting, and the tests of a file may share what they prepared."""
 BROWSER_NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 
 
@@ -58,7 +60,7 @@ def run(arguments: list[str]) -> int:
 
 def test(arguments: list[str]) -> int:
     set_up(dev=True)
-    return step("pytest", [PYTHON, "-m", "pytest", *arguments], with_browser())
+    return step("pytest", [PYTHON, "-m", "pytest", *(arguments or SIDE_BY_SIDE)], with_browser())
 
 
 def check(_arguments: list[str]) -> int:

@@ -3,6 +3,7 @@
 import os
 import shutil
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Self
 from urllib.parse import urlsplit
@@ -122,6 +123,25 @@ def phone(browser: Browser, base_url: str) -> Iterator[Page]:
     with watched(page, base_url):
         yield page
     context.close()
+
+
+@pytest.fixture
+def visitor(browser: Browser, base_url: str) -> Iterator[BrowserContext]:
+    """A new visitor with any number of tabs."""
+    with scripts_watched(browser.new_context(base_url=base_url, reduced_motion="reduce")) as context:
+        yield context
+
+
+@contextmanager
+def scripts_watched(context: BrowserContext) -> Iterator[BrowserContext]:
+    """Fails at its end if a script did; the browser itself reports refusals on its console, so that is let be."""
+    faults: list[str] = []
+    context.add_init_script(WATCH_FOR_VIOLATIONS)
+    context.on("weberror", lambda error: faults.append(str(error.error)))
+    context.on("console", lambda message: faults.append(message.text) if message.text.startswith("CSP") else None)
+    yield context
+    context.close()
+    assert not faults, "\n".join(faults)
 
 
 @pytest.fixture(scope="module")
