@@ -4,11 +4,10 @@ import itertools
 import uuid
 from typing import Any, Literal
 
-from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import BrowserContext, Page, expect
 
 from tests import journey
-from tests.browser import walk
+from tests.browser import test_pages, walk
 
 Json = dict[str, Any]
 Outcome = Literal["success", "failure"]
@@ -79,5 +78,4 @@ def flat(order: list[list[str]]) -> list[str]:
 def check_axe(page: Page, where: str) -> None:
     for scheme in SCHEMES:
         page.emulate_media(color_scheme=scheme)
-        results = Axe().run(page)
-        assert results.violations_count == 0, f"{where}, {scheme}:\n{results.generate_report()}"
+        test_pages.check_axe(page, f"{where}, {scheme}")

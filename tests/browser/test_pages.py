@@ -118,6 +118,13 @@ def take(page: Page, path: Path) -> None:
     page.screenshot(path=path)
 
 
+#: Resolves when whatever fades or moves has come to its end.
+SETTLED = """() => Promise.allSettled(
+  document.getAnimations().filter((one) => Number.isFinite(one.effect.getComputedTiming().endTime))
+    .map((one) => one.finished)).then(() => {})"""
+
+
 def check_axe(page: Page, where: str) -> None:
+    page.evaluate(SETTLED)  # a colour on its way is no colour to judge
     results = Axe().run(page)
     assert results.violations_count == 0, f"{where}:\n{results.generate_report()}"

@@ -48,7 +48,11 @@ test("what is announced, word by word", () => {
   assert.equal(say.noFurther(-1), "It stands first already.");
   assert.equal(say.noFurther(1), "It stands last already.");
   assert.equal(
-    say.marked(CARD),
+    say.marked(CARD, true),
     "To compare: Success with +8.8 in 12 steps. Press C on the other one; Escape forgets it.",
+  );
+  assert.equal(
+    say.marked(CARD, false),
+    "To compare: Success with +8.8 in 12 steps. Now press Compare on the other one.",
   );
 });

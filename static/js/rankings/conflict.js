@@ -55,7 +55,14 @@ function answerOf(id) {
   dialog.returnValue = "";
   dialog.showModal();
   return new Promise((resolve) => {
-    dialog.addEventListener("close", () => resolve(dialog.returnValue), { once: true });
+    const heard = new AbortController();
+    const onClose = () => {
+      // The event comes a moment after the closing: it may be that of the time before.
+      if (dialog.open) return;
+      heard.abort();
+      resolve(dialog.returnValue);
+    };
+    dialog.addEventListener("close", onClose, { signal: heard.signal });
   });
 }
 
