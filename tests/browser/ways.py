@@ -1,7 +1,7 @@
 """Other ways to a page than a mouse and sharp eyes: who comes, what is heard, what is seen."""
 
 import io
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, Final, TypeAlias
 
@@ -62,6 +62,15 @@ def expect_shows(page: Page, what: str) -> None:
 def expect_state(page: Page, state: int) -> None:
     """Where the agent is drawn."""
     expect(page.locator("#board .agent")).to_have_attribute("data-state", str(state))
+
+
+def expect_attempts(page: Page, address: str, are_so: Callable[[list[walk.Json]], bool]) -> None:
+    """The server comes to have them so. A badge still says "saved" in the moment before the next wish is stored."""
+    for _ in range(100):
+        if are_so(attempts := attempts_of(page, address)):
+            return
+        page.wait_for_timeout(100)
+    raise AssertionError(attempts)
 
 
 def expect_saved(page: Page) -> None:
