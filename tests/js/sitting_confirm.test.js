@@ -1,25 +1,9 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import { dice } from "./random.js";
-import { Browser, stateOf } from "./sitting_house.js";
+import { Browser, busy, contents, logOf, REDO, stateOf, UNDO } from "./sitting_house.js";
 
 const MINE = { means: "button" };
-const UNDO = { type: "undo", means: "button" };
-const REDO = { type: "redo", means: "button" };
-const logOf = (browser, { sitting }) => browser.server.logs.get(sitting.id) ?? [];
-/** The state without what only the hand knows. */
-const contents = ({ past, present, future, way, touched }) => ({ past, present, future, way, touched });
-
-/** A tab that has done something and undone some of it. */
-async function busy(browser, name = "first") {
-  const tab = await browser.open(name);
-  for (const id of ["a", "b", "a", "c"]) tab.top(id);
-  tab.sitting.do({ type: "answer", means: "key", outcome: "success", a: "a", b: "b", said: "a" });
-  tab.sitting.do({ type: "place", means: "touch", outcome: "failure", id: "y", group: 0, joins: true });
-  tab.sitting.do(UNDO);
-  tab.sitting.do(UNDO);
-  return tab;
-}
 
 test("a confirmed order resolves when the server has it, with the log up to there", async () => {
   const browser = new Browser();

@@ -8,6 +8,23 @@ import { Sitting } from "#js/rankings/sitting.js";
 import { apply, beginState } from "#js/rankings/sitting-state.js";
 import { memoryParcels } from "./factories.js";
 
+export const UNDO = { type: "undo", means: "button" };
+export const REDO = { type: "redo", means: "button" };
+export const logOf = (browser, { sitting }) => browser.server.logs.get(sitting.id) ?? [];
+/** The state without what only the hand knows. */
+export const contents = ({ past, present, future, way, touched }) => ({ past, present, future, way, touched });
+
+/** A tab that has done something and undone some of it. */
+export async function busy(browser, name = "first") {
+  const tab = await browser.open(name);
+  for (const id of ["a", "b", "a", "c"]) tab.top(id);
+  tab.sitting.do({ type: "answer", means: "key", outcome: "success", a: "a", b: "b", said: "a" });
+  tab.sitting.do({ type: "place", means: "touch", outcome: "failure", id: "y", group: 0, joins: true });
+  tab.sitting.do(UNDO);
+  tab.sitting.do(UNDO);
+  return tab;
+}
+
 /** What the server would say, in short: it keeps logs and versions, and refuses as design and contract have it. */
 export class Server {
   /** @type {Map<string, any[]>} */
