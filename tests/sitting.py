@@ -6,6 +6,7 @@ import uuid
 from typing import Any
 
 from httpx2 import Client, Response
+from sqlalchemy import text
 
 Json = dict[str, Any]
 
@@ -67,3 +68,14 @@ class Sitting:
         sitting = {"id": self.id, "events": self.log if events is None else events}
         body = {"order": order, "confirmed": True, "sitting": sitting} | changes
         return self.client.put(f"/api/v1/worlds/{self.world['id']}/rankings/{outcome}", json=body)
+
+
+def stored(client, table="ranking_event"):
+    with client.app.state.database.read() as session:
+        return session.scalar(text(f"SELECT count(*) FROM {table}"))
+
+
+def error(response, status, code):
+    """The error of a response that must have this status and code."""
+    assert (response.status_code, response.json()["error"]["code"]) == (status, code), response.text
+    return response.json()["error"]

@@ -235,6 +235,7 @@ def test_after_everything_is_confirmed_the_page_begins_anew_from_what_counts(pag
     expect_versions_rebuilt(server, world_id)
 
 
+# Only Linux lists the browser's processes, which are killed here by their numbers; CI is Linux, so it never skips this.
 @pytest.mark.skipif(not Path("/proc/self").exists(), reason="finds the browser's processes in /proc")
 @pytest.mark.usefixtures("browser")  # skips or fails where there is none
 def test_a_killed_browser_loses_no_step(playwright: Playwright, tmp_path: Path, home: LiveServer) -> None:

@@ -56,6 +56,7 @@ def test_six_attempts_arrive_once_each_though_the_server_was_away_when_the_page_
     assert all(ms > 0 for ms in parcels[0]["body"]["step_ms"])
 
 
+# Only Linux lists the browser's processes, which are killed here by their numbers; CI is Linux, so it never skips this.
 @pytest.mark.skipif(not Path("/proc/self").exists(), reason="finds the browser's processes in /proc")
 @pytest.mark.usefixtures("browser")  # skips or fails where there is none
 def test_a_killed_browser_loses_at_most_the_last_step(playwright: Playwright, tmp_path: Path, home: LiveServer) -> None:
