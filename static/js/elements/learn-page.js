@@ -87,11 +87,11 @@ export class LearnPage extends HTMLElement {
     const body = { learners, settings: asked.settings, ...(asked.seed === null ? {} : { seed: asked.seed }) };
     this.#complain("");
     this.#setAsking(true);
+    this.#askedAt = performance.now();
     try {
       const run = /** @type {Run} */ (await api.post(`/worlds/${this.#data.world.id}/runs`, body));
       const outcomes = Object.fromEntries(learners.map((learner) => [learner, { outcome: null }]));
       history.replaceState(history.state, "", `/runs/${run.id}`);
-      this.#askedAt = performance.now();
       this.#watch({ ...run, learners: run.learners ?? outcomes });
       announce("Learning has been asked for.");
     } catch (error) {
