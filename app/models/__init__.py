@@ -3,7 +3,7 @@
 from app.models.base import Base
 from app.models.demonstration import Demonstration
 from app.models.ranking import Ranking
-from app.models.run import RUN_STATUSES, Run, RunCheckpoint, RunEvent, RunResult, Worker
+from app.models.run import RUN_STATUSES, Run, RunCheckpoint, RunEvent, RunResult, RunShare, Worker
 from app.models.sitting import RankingEvent, Sitting
 from app.models.visitor import Visitor
 from app.models.world import World
@@ -18,6 +18,7 @@ __all__ = [
     "RunCheckpoint",
     "RunEvent",
     "RunResult",
+    "RunShare",
     "Sitting",
     "Visitor",
     "Worker",

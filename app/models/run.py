@@ -3,7 +3,7 @@
 from datetime import datetime
 from typing import Any
 
-from sqlalchemy import JSON, CheckConstraint, ForeignKey, Index, String
+from sqlalchemy import JSON, CheckConstraint, Double, ForeignKey, Index, String
 from sqlalchemy.orm import Mapped, mapped_column
 
 from app.models.base import Base
@@ -51,6 +51,9 @@ class RunResult(Base):
     run_id: Mapped[str] = mapped_column(ForeignKey("run.id", ondelete="CASCADE"), primary_key=True)
     learner: Mapped[str] = mapped_column(String(40), primary_key=True)
     result: Mapped[dict[str, Any]] = mapped_column(JSON)
+    compute_ms: Mapped[float] = mapped_column(
+        Double, default=0.0, server_default="0", comment="how long the learner itself computed, in milliseconds"
+    )
     finished_at: Mapped[datetime]
 
 
@@ -62,6 +65,9 @@ class RunCheckpoint(Base):
     run_id: Mapped[str] = mapped_column(ForeignKey("run.id", ondelete="CASCADE"), primary_key=True)
     learner: Mapped[str] = mapped_column(String(40), primary_key=True)
     state: Mapped[dict[str, Any]] = mapped_column(JSON, comment="irl_core.LearningState.to_json(), floats exact")
+    compute_ms: Mapped[float] = mapped_column(
+        Double, default=0.0, server_default="0", comment="how long the learner itself has computed, in milliseconds"
+    )
 
 
 class RunEvent(Base):
@@ -76,6 +82,17 @@ class RunEvent(Base):
     data: Mapped[str] = mapped_column(comment="JSON, ready to be sent")
 
 
+class RunShare(Base):
+    """A key to a run: who has a link with it may see the run, and change nothing."""
+
+    __tablename__ = "run_share"
+
+    key: Mapped[str] = mapped_column(String(43), primary_key=True, comment="256 random bits, URL-safe")
+    run_id: Mapped[str] = mapped_column(ForeignKey("run.id", ondelete="CASCADE"), index=True)
+    created_at: Mapped[datetime]
+    revoked_at: Mapped[datetime | None]
+
+
 class Worker(Base):
     """A sign of life of each worker process."""
 
@@ -84,3 +101,4 @@ class Worker(Base):
     name: Mapped[str] = mapped_column(String(40), primary_key=True)
     pid: Mapped[int]
     seen_at: Mapped[datetime]
+    ready_at: Mapped[datetime | None] = mapped_column(comment="since when it takes runs; null while it compiles")

@@ -1,0 +1,1 @@
+"""Comparisons over many worlds: places, who beats whom, and the table of the paper."""

@@ -1,0 +1,1 @@
+"""Learning again at once, without a run: while a person ranks, and to see what would change if."""
