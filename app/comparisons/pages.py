@@ -10,7 +10,7 @@ from app.comparisons import queries
 from app.demonstrations.pages import demonstrations_json
 from app.dependencies import DatabaseFromApp
 from app.learning.convert import describe_learners, describe_settings, snapshot_rankings, to_out
-from app.learning.dependencies import RunFromPath
+from app.learning.dependencies import RunFromPath, ShareKey
 from app.learning.queries import demonstrations_of, latest_done_run, results, world_of
 from app.pages import PathState, path_state, render
 from app.visitors import VisitorOrNone
@@ -27,7 +27,8 @@ class ComparePage:
     world: dict[str, Any] = field(metadata={"help": "The world, as the API has it."})
     data: dict[str, Any] = field(
         metadata={
-            "help": "The page data: world, demonstrations, rankings, run, learners, comparison, rollouts, settings."
+            "help": "The page data: world, demonstrations, rankings, run, is_own, key, learners, comparison, rollouts, "
+            "settings."
         }
     )
 
@@ -42,11 +43,12 @@ def lead_to_comparison(world: WorldFromPath, database: DatabaseFromApp, visitor_
 
 @router.get("/runs/{run_id}/comparison", response_model=None)
 def show_comparison(
-    request: Request, run: RunFromPath, database: DatabaseFromApp, visitor_id: VisitorOrNone
+    request: Request, run: RunFromPath, database: DatabaseFromApp, visitor_id: VisitorOrNone, key: ShareKey = None
 ) -> Response:
     """Show the comparison of a run; one that is not done leads to where it can be watched."""
+    is_own = run.visitor_id == visitor_id
     if run.comparison is None:
-        return RedirectResponse(f"/runs/{run.id}", 303)
+        return RedirectResponse(f"/runs/{run.id}" if is_own else f"/runs/{run.id}?key={key}", 303)
     with database.read() as session:
         world = world_of(session, run)
         rows = demonstrations_of(session, run)
@@ -56,7 +58,9 @@ def show_comparison(
         "world": world.to_json(),
         "demonstrations": demonstrations_json(rows),
         "rankings": snapshot_rankings(run),
-        "run": to_out(run, stored).model_dump(mode="json"),
+        "run": to_out(run, stored, is_own=is_own).model_dump(mode="json"),
+        "is_own": is_own,
+        "key": None if is_own else key,
         "learners": describe_learners(run.learners),
         "comparison": queries.comparison_of(run),
         "rollouts": queries.rollouts_of(run),

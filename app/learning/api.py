@@ -9,12 +9,12 @@ from sqlalchemy.orm import Session
 
 from app.db import Database
 from app.dependencies import DatabaseFromApp
-from app.learning import queries, service
+from app.learning import queries, service, sharing
 from app.learning.convert import to_out
-from app.learning.dependencies import JobsFromApp, RunFromPath, WatcherFromApp
+from app.learning.dependencies import JobsFromApp, OwnRunFromPath, RunFromPath, WatcherFromApp
 from app.learning.export import demonstration_file
-from app.learning.schemas import RunIn, RunOut
-from app.models import Run
+from app.learning.schemas import RunIn, RunOut, ShareOut
+from app.models import Run, RunShare
 from app.visitors import Visitor, VisitorOrNone, remember
 from app.worlds.dependencies import WorldFromPath
 
@@ -46,9 +46,10 @@ def list_runs(world: WorldFromPath, database: DatabaseFromApp, visitor_id: Visit
 
 
 @router.get("/runs/{run_id}", summary="Show a run")
-def show(run: RunFromPath, database: DatabaseFromApp) -> RunOut:
+def show(run: RunFromPath, database: DatabaseFromApp, visitor_id: VisitorOrNone) -> RunOut:
     """Show a run: its status, and what each learner has come to."""
-    return show_run(database, run)
+    with database.read() as session:
+        return to_out(run, queries.results(session, [run.id])[run.id], is_own=run.visitor_id == visitor_id)
 
 
 @router.get("/runs/{run_id}/events", summary="Follow a run", response_class=StreamingResponse)
@@ -70,12 +71,31 @@ async def follow(
 
 
 @router.post("/runs/{run_id}/cancellation", status_code=202, summary="Cancel a run")
-def cancel(run: RunFromPath, database: DatabaseFromApp) -> RunOut:
+def cancel(run: OwnRunFromPath, database: DatabaseFromApp) -> RunOut:
     """Cancel a run that has not ended."""
     database.write(lambda session: service.cancel(session, run.id))
     with database.read() as session:
         results = queries.results(session, [run.id])
         return to_out(session.get_one(Run, run.id), results[run.id])
+
+
+@router.post("/runs/{run_id}/shares", status_code=201, summary="Share a run")
+def share(run: OwnRunFromPath, database: DatabaseFromApp) -> ShareOut:
+    """Make a link that opens this run, its comparison and what it learned from to whoever has it."""
+    return share_out(database.write(lambda session: sharing.share(session, run.id)))
+
+
+@router.get("/runs/{run_id}/shares", summary="List the links to a run")
+def list_shares(run: OwnRunFromPath, database: DatabaseFromApp) -> list[ShareOut]:
+    """List the links that open this run."""
+    with database.read() as session:
+        return [share_out(one) for one in sharing.keys_of(session, run.id)]
+
+
+@router.delete("/runs/{run_id}/shares/{key}", status_code=204, summary="Revoke a link to a run")
+def revoke_share(run: OwnRunFromPath, key: str, database: DatabaseFromApp) -> None:
+    """Close this run again to those who have the link."""
+    database.write(lambda session: sharing.revoke(session, run.id, key))
 
 
 @router.get("/runs/{run_id}/demonstrations.jsonl", summary="Take a run's demonstrations away")
@@ -89,10 +109,10 @@ def export(run: RunFromPath, database: DatabaseFromApp) -> PlainTextResponse:
     )
 
 
-def show_run(database: Database, run: Run) -> RunOut:
-    """Show a run with its results."""
-    with database.read() as session:
-        return to_out(run, queries.results(session, [run.id])[run.id])
+def share_out(share: RunShare) -> ShareOut:
+    """Show a link."""
+    address = f"/runs/{share.run_id}/comparison?key={share.key}"
+    return ShareOut(key=share.key, address=address, created_at=share.created_at)
 
 
 def newest_event(database: Database, run_id: str) -> int:

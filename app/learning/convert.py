@@ -91,12 +91,13 @@ def describe_settings() -> list[dict[str, Any]]:
     return [one | {"whole": isinstance(one["default"], int)} for one in Settings.describe()]
 
 
-def to_out(run: Run, results: Mapping[str, RunResult]) -> RunOut:
+def to_out(run: Run, results: Mapping[str, RunResult], *, is_own: bool = True) -> RunOut:
     """Show a run with what its learners have come to."""
     finished = {name: results[name].result for name in run.learners if name in results}
     return RunOut(
         id=run.id,
         world_id=run.world_id,
+        is_own=is_own,
         status=run.status,  # type: ignore[arg-type]  # the table checks the word
         reason=run.reason,
         seed=run.seed,

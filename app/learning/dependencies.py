@@ -5,14 +5,15 @@ from contextlib import asynccontextmanager
 from typing import Annotated
 from uuid import UUID
 
-from fastapi import Depends, FastAPI, Request
+from fastapi import Depends, FastAPI, Query, Request
+from sqlalchemy.orm import Session
 
 from app.config import Settings
 from app.db import Database
 from app.dependencies import DatabaseFromApp
 from app.errors import NotFound
-from app.learning import queries
 from app.learning.jobs import Jobs
+from app.learning.sharing import opens
 from app.learning.stream import Watcher
 from app.models import Run
 from app.visitors import VisitorOrNone
@@ -42,16 +43,36 @@ async def get_watcher(request: Request) -> Watcher:
     return watcher
 
 
-def get_run(run_id: UUID, database: DatabaseFromApp, visitor_id: VisitorOrNone) -> Run:
-    """Load the run of the address, if this visitor asked for it."""
+ShareKey = Annotated[
+    str | None,
+    Query(alias="key", description="The key of a link by which the run was shared, for who does not own it."),
+]
+
+
+def get_run(run_id: UUID, database: DatabaseFromApp, visitor_id: VisitorOrNone, key: ShareKey = None) -> Run:
+    """Load the run of the address, if this visitor asked for it or came by a link that opens it."""
     with database.read() as session:
-        run = queries.run_of(session, str(run_id), visitor_id)
-    if run is None:
-        message = "There is no such run here. Runs can be seen by the browser that asked for them."
-        raise NotFound(message)
-    return run
+        return find_run(session, str(run_id), visitor_id, key)
+
+
+def get_own_run(run_id: UUID, database: DatabaseFromApp, visitor_id: VisitorOrNone) -> Run:
+    """Load the run of the address, if this visitor asked for it: for what changes it or gives it away."""
+    with database.read() as session:
+        return find_run(session, str(run_id), visitor_id, None)
+
+
+def find_run(session: Session, run_id: str, visitor_id: str | None, key: str | None) -> Run:
+    """Find a run that this visitor may see. Raises NotFound, which tells nothing of runs that are not theirs."""
+    run = session.get(Run, run_id)
+    if run is not None and (run.visitor_id == visitor_id or (key is not None and opens(session, key, run_id))):
+        return run
+    message = "There is no such run here. Runs can be seen by the browser that asked for them, or by a link it shared."
+    raise NotFound(message)
 
 
 JobsFromApp = Annotated[Jobs, Depends(get_jobs)]
 WatcherFromApp = Annotated[Watcher, Depends(get_watcher)]
 RunFromPath = Annotated[Run, Depends(get_run)]
+"""A run to look at: its owner's, or opened by the key of a shared link."""
+OwnRunFromPath = Annotated[Run, Depends(get_own_run)]
+"""A run to change: its owner's alone."""

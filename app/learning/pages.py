@@ -11,8 +11,8 @@ from app.demonstrations.pages import demonstrations_json
 from app.demonstrations.queries import all_in_world
 from app.dependencies import DatabaseFromApp
 from app.learning import queries, service
-from app.learning.convert import describe_choice, describe_settings, to_out, to_problem
-from app.learning.dependencies import RunFromPath
+from app.learning.convert import describe_choice, describe_settings, snapshot_rankings, to_out, to_problem
+from app.learning.dependencies import RunFromPath, ShareKey
 from app.models import Run
 from app.pages import PathState, path_state, render
 from app.rankings.convert import rankings_out
@@ -20,6 +20,7 @@ from app.rankings.queries import newest
 from app.visitors import VisitorOrNone
 from app.worlds.convert import StoredWorld
 from app.worlds.dependencies import WorldFromPath
+from irl_core import LearningProblem
 
 router = APIRouter(include_in_schema=False)
 
@@ -31,7 +32,7 @@ class LearnPage:
     path: PathState = field(metadata={"help": "How far this visitor has come in this world."})
     world: dict[str, Any] = field(metadata={"help": "The world, as the API has it."})
     data: dict[str, Any] = field(
-        metadata={"help": "The page data: world, demonstrations, rankings, run, learners, settings."}
+        metadata={"help": "The page data: world, demonstrations, rankings, run, is_own, key, learners, settings."}
     )
 
 
@@ -47,28 +48,53 @@ def show_learn(
 
 
 @router.get("/runs/{run_id}", response_model=None)
-def show_run(request: Request, run: RunFromPath, database: DatabaseFromApp, visitor_id: VisitorOrNone) -> Response:
-    """Show one run, live or from its first frame."""
+def show_run(
+    request: Request, run: RunFromPath, database: DatabaseFromApp, visitor_id: VisitorOrNone, key: ShareKey = None
+) -> Response:
+    """Show one run, live or from its first frame; to others than its owner with what it learned from, and no more."""
     with database.read() as session:
-        page = _page(session, queries.world_of(session, run), visitor_id, run)
+        world = queries.world_of(session, run)
+        is_own = run.visitor_id == visitor_id
+        page = _page(session, world, visitor_id, run) if is_own else _shared_page(session, world, visitor_id, run, key)
     return render(request, "learning/learn.html", page)
 
 
 def _page(session: Session, world: StoredWorld, visitor_id: str | None, run: Run | None) -> LearnPage:
+    """The page of somebody who plays here: what they have now, whatever the run learned from."""
     rows = all_in_world(session, visitor_id, world.id)
     kept = [row for row in rows if row.discarded_at is None]
     rankings = service.current_rankings(session, visitor_id, world.id, kept)
-    problem = to_problem(world.world, kept, rankings, settings={}, seed=0)
-    data: dict[str, Any] = {
-        "world": world.to_json(),
+    data = {
         "demonstrations": demonstrations_json(rows),
         "rankings": rankings_out(newest(session, visitor_id, world.id)).model_dump(mode="json"),
-        "run": _run_json(session, run) if run else None,
-        "learners": describe_choice(problem),
-        "settings": describe_settings(),
+        "run": _run_json(session, run, is_own=True) if run else None,
+        "is_own": True,
+        "key": None,
     }
+    return _with_choice(session, world, visitor_id, data, to_problem(world.world, kept, rankings, settings={}, seed=0))
+
+
+def _shared_page(session: Session, world: StoredWorld, visitor_id: str | None, run: Run, key: str | None) -> LearnPage:
+    """The page of somebody who came by a link: the run's snapshot, as if nothing had been played or ranked since."""
+    rows = queries.demonstrations_of(session, run)
+    data = {
+        "demonstrations": [one | {"discarded": False} for one in demonstrations_json(rows)],
+        "rankings": snapshot_rankings(run),
+        "run": _run_json(session, run, is_own=False),
+        "is_own": False,
+        "key": key,
+    }
+    problem = to_problem(world.world, rows, run.rankings, settings={}, seed=0)
+    return _with_choice(session, world, visitor_id, data, problem)
+
+
+def _with_choice(
+    session: Session, world: StoredWorld, visitor_id: str | None, data: dict[str, Any], problem: LearningProblem
+) -> LearnPage:
+    """Add what a page says of the world, the learners and the settings."""
+    data |= {"world": world.to_json(), "learners": describe_choice(problem), "settings": describe_settings()}
     return LearnPage(path=path_state(session, visitor_id, world.id, "learn"), world=data["world"], data=data)
 
 
-def _run_json(session: Session, run: Run) -> dict[str, Any]:
-    return to_out(run, queries.results(session, [run.id])[run.id]).model_dump(mode="json")
+def _run_json(session: Session, run: Run, *, is_own: bool) -> dict[str, Any]:
+    return to_out(run, queries.results(session, [run.id])[run.id], is_own=is_own).model_dump(mode="json")

@@ -15,12 +15,6 @@ WORKER_IS_SILENT_AFTER = timedelta(seconds=15)
 ENDED = ("done", "failed", "cancelled")
 
 
-def run_of(session: Session, run_id: str, visitor_id: str | None) -> Run | None:
-    """Find a run that this visitor asked for."""
-    run = session.get(Run, run_id)
-    return run if run is not None and run.visitor_id == visitor_id else None
-
-
 def world_of(session: Session, run: Run) -> StoredWorld:
     """Load the world of a run, which a foreign key keeps in place."""
     stored = find_world(session, run.world_id)

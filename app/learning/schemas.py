@@ -44,6 +44,7 @@ class RunOut(BaseModel):
 
     id: str
     world_id: str
+    is_own: bool = Field(description="You asked for it; otherwise you see it by a link that was shared.")
     status: Literal["queued", "running", "done", "failed", "cancelled"]
     reason: str | None = Field(description="Why it failed, in words.")
     seed: int
@@ -59,3 +60,11 @@ class RunOut(BaseModel):
     created_at: datetime
     started_at: datetime | None
     finished_at: datetime | None
+
+
+class ShareOut(BaseModel):
+    """A link that opens a run to whoever has it."""
+
+    key: str
+    address: str = Field(description="The page of the comparison, on this server.")
+    created_at: datetime
