@@ -23,6 +23,8 @@ from app.learning.dependencies import open_learning
 from app.rankings import api as rankings_api
 from app.rankings import pages as rankings_pages
 from app.rankings.sittings import Sittings
+from app.retraining import api as retraining_api
+from app.retraining.dependencies import open_retraining
 from app.security import CrossSiteGuard, JsonBodies, SecurityHeaders, UnexpectedErrors
 from app.templating import Pages, find_folder
 from app.visitors import VisitorCookie
@@ -34,6 +36,7 @@ API_ROUTERS: tuple[APIRouter, ...] = (
     demonstrations_api.router,
     rankings_api.router,
     learning_api.router,
+    retraining_api.router,
     comparisons_api.router,
 )
 PAGE_ROUTERS: tuple[APIRouter, ...] = (
@@ -83,7 +86,7 @@ async def lifespan(app: FastAPI) -> AsyncIterator[None]:
     app.state.known_worlds = {}
     app.state.sittings = Sittings(app.state.database)
     try:
-        async with open_learning(app, settings, app.state.database):
+        async with open_learning(app, settings, app.state.database), open_retraining(app):
             yield
     finally:
         app.state.database.close()

@@ -1,0 +1,34 @@
+"""What the routes of learning again ask for by type, and what the app opens for them."""
+
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from typing import Annotated
+
+from fastapi import Depends, FastAPI, Request
+
+from app.kit.companion import Asker, Companion
+from app.learning.supervisor import ONE_THREAD_EACH
+from app.retraining import computing
+from app.visitors import VisitorOrNone
+
+
+@asynccontextmanager
+async def open_retraining(app: FastAPI) -> AsyncIterator[None]:
+    """Have a companion for the life of the app; it starts when somebody needs it."""
+    app.state.companion = Companion(
+        warm_up=computing.get_ready, expected=computing.EXPECTED, environment=ONE_THREAD_EACH
+    )
+    try:
+        yield
+    finally:
+        app.state.companion.close()
+
+
+async def get_asker(request: Request, visitor_id: VisitorOrNone) -> Asker:
+    """Tell those who ask apart, to be fair to them: by the visitor, or, for who only looks on, by the connection."""
+    client = request.client
+    who = visitor_id or (f"{client.host}:{client.port}" if client else "somebody")
+    return Asker(request.app.state.companion, who)
+
+
+AskerFromRequest = Annotated[Asker, Depends(get_asker)]

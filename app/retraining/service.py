@@ -1,0 +1,72 @@
+"""What people can have learned again at once, without a run. Nothing of it is stored."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from anyio import to_thread
+
+from app.db import Database
+from app.demonstrations import queries as demonstrations
+from app.errors import Unprocessable
+from app.kit.companion import Asker
+from app.learning.convert import missing, to_problem
+from app.models import Demonstration
+from app.rankings.content import OUTCOMES
+from app.rankings.queries import Attempt
+from app.rankings.service import check_order
+from app.retraining import computing
+from app.retraining.convert import learned_out
+from app.retraining.refusals import in_words, missing_demonstrations
+from app.retraining.schemas import OrdersIn, PreviewIn
+from app.worlds.convert import StoredWorld
+from irl_core import LEARNERS, LearningProblem
+
+SHOW_WHAT_AN_ORDER_TEACHES = ("irlfr", "irlr", "irlf", "meirl", "birlfr")
+"""The first of them that can learn from it."""
+SEED = 0
+"""A preview always has the same, so that the same order shows the same policy."""
+
+
+async def preview(
+    asker: Asker, database: Database, *, world: StoredWorld, visitor_id: str | None, asked: PreviewIn
+) -> dict[str, Any]:
+    """Learn from orders as they stand. Raises Unprocessable; Conflict where this asker wants another by now."""
+    line = asker.line("preview")
+    learner, problem = await to_thread.run_sync(_previewed, database, world, visitor_id, asked)
+    with in_words():
+        return learned_out(await line.ask(computing.learn_again, learner, problem))
+
+
+def _previewed(
+    database: Database, world: StoredWorld, visitor_id: str | None, asked: PreviewIn
+) -> tuple[str, LearningProblem]:
+    with database.read() as session:
+        rows = demonstrations.all_in_world(session, visitor_id, world.id)
+    orders = _checked(rows, asked.orders)
+    kept = [row for row in rows if row.discarded_at is None]
+    problem = to_problem(world.world, kept, orders, settings=asked.settings, seed=SEED)
+    return _learner_for(problem, asked.learner), problem
+
+
+def _checked(rows: Sequence[Demonstration], told: OrdersIn) -> dict[str, list[list[str]]]:
+    """Return the orders that are told, each of exactly the attempts that are kept."""
+    attempts = {row.id: Attempt(row.id, row.outcome, row.discarded_at is None, len(row.actions)) for row in rows}
+    orders: dict[str, list[list[str]]] = {}
+    for outcome in OUTCOMES:
+        if order := getattr(told, outcome):
+            check_order(order, attempts, outcome)
+            orders[outcome] = order
+    return orders
+
+
+def _learner_for(problem: LearningProblem, asked: str | None) -> str:
+    """Return the learner that is asked for, or the first that can learn from this. Raises Unprocessable."""
+    if asked is not None and asked not in LEARNERS:
+        message = f"There is no such learner; there are {', '.join(LEARNERS)}."
+        raise Unprocessable(message, fields={"learner": message})
+    sentence: str | None = None
+    for name in [asked] if asked else SHOW_WHAT_AN_ORDER_TEACHES:
+        sentence = missing(problem, LEARNERS[name])
+        if sentence is None:
+            return name
+    raise missing_demonstrations(sentence or "")
