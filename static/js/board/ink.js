@@ -34,13 +34,13 @@ function isTight({ geometry: { cell, ratio } }) {
 }
 
 /** Discs whose area is proportional to the visits. @param {Scene} scene */
-function drawVisits({ context, geometry, world, view, theme }) {
+function drawVisits({ context, newPath, geometry, world, view, theme }) {
   const visits = view.visits ?? [];
   const { cell, ratio } = geometry;
   let largest = 0;
   for (let i = 0; i < visits.length; i++) largest = Math.max(largest, visits[i] ?? 0);
   if (!(largest > 0)) return;
-  const path = new Path2D();
+  const path = newPath();
   for (let state = 0; state < visits.length; state++) {
     const radius = 0.42 * cell * Math.sqrt(Math.max(0, visits[state] ?? 0) / largest);
     if (radius < 0.35 * ratio) continue;
@@ -59,15 +59,15 @@ function drawVisits({ context, geometry, world, view, theme }) {
 }
 
 /** Four arrows a square, length ∝ probability, all of one ink in one path. Above a figure they stand higher and smaller. @param {Scene} scene */
-function drawArrows({ context, geometry, world, view, look, theme }) {
+function drawArrows({ context, newPath, geometry, world, view, look, theme }) {
   const { cell, ratio } = geometry;
   const arrows = view.arrows;
   if (cell < SMALLEST_ARROWS * ratio || !arrows) return;
   const hasHeads = cell >= SMALLEST_HEADS * ratio;
   const hasFigures = view.numbers && cell >= SMALLEST_FIGURES * ratio;
   const [reach, middle] = hasFigures ? [0.25, 0.36] : [0.42, 0.5];
-  const lines = [new Path2D(), new Path2D()];
-  const solids = [new Path2D(), new Path2D()];
+  const lines = [newPath(), newPath()];
+  const solids = [newPath(), newPath()];
   for (let state = 0; state < arrows.length; state++) {
     if (world.goals.includes(state) || colourOf(world, state) === "wall") continue;
     const [row, col] = placeOf(world, state);
@@ -125,7 +125,7 @@ function drawFigures(scene, states) {
   if (cell < SMALLEST_FIGURES * ratio) return;
   const isShared = view.arrows !== null && !isTight(scene);
   const size = Math.min(Math.max(cell * (isShared ? 0.22 : 0.3), SMALLEST_TYPE * ratio), 20 * ratio);
-  context.font = `600 ${size}px ${getComputedStyle(context.canvas).fontFamily}`;
+  context.font = `600 ${size}px ${theme.font}`;
   context.textAlign = "center";
   context.textBaseline = "middle";
   for (const state of states) {

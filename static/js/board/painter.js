@@ -64,7 +64,7 @@ export class Painter {
   paint(world, view, geometry) {
     const palette = theme();
     if (this.#isOld.squares || !this.#look) this.#look = lookOf(world, view, palette);
-    const scene = { world, view, geometry, theme: palette, look: this.#look };
+    const scene = { world, view, geometry, theme: palette, look: this.#look, newPath };
     if (this.#isOld.squares) drawSquares({ ...scene, context: contextOf(this.#squares) });
     const trail = trailOf(view);
     this.#paintTrail(scene, trail);
@@ -102,6 +102,10 @@ function trailOf({ paths, visits }) {
   const [path] = paths;
   const isAlone = paths.length === 1 && visits === null;
   return path && isAlone && (path.fade || path.states.length > LONG_PATH) ? path : null;
+}
+
+function newPath() {
+  return new Path2D();
 }
 
 /** @param {string} className */

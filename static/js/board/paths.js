@@ -56,7 +56,7 @@ function drawPath(scene, path, { shift, box }) {
 }
 
 /** First all halos, then all lines; the older a step of a fading path, the paler, never wholly gone. @param {Scene} scene @param {Path} path @param {{at: At, stroke: Stroke, box: Box | null}} how */
-function drawLines({ context, world }, path, { at, stroke, box }) {
+function drawLines({ context, newPath, world }, path, { at, stroke, box }) {
   const { settled, fading } = edgesOf(world, path, box);
   for (const [paint, size] of /** @type {const} */ ([
     [stroke.halo, path.fade ? 1.8 : 1.9],
@@ -65,11 +65,11 @@ function drawLines({ context, world }, path, { at, stroke, box }) {
     context.strokeStyle = paint;
     context.lineWidth = stroke.width * size;
     context.globalAlpha = stroke.opacity * (path.fade ? FAINTEST : 1);
-    context.stroke(trace(settled, at));
+    context.stroke(trace(newPath(), settled, at));
     context.lineCap = "butt";
     for (const [i, edge] of fading.entries()) {
       context.globalAlpha = stroke.opacity * strengthOf(edge.age);
-      context.stroke(traceBend(edge, { before: fading[i - 1], after: fading[i + 1] }, at));
+      context.stroke(traceBend(newPath(), edge, { before: fading[i - 1], after: fading[i + 1], at }));
     }
     context.lineCap = "round";
   }
@@ -78,23 +78,21 @@ function drawLines({ context, world }, path, { at, stroke, box }) {
 /**
  * From the middle of a line to the middle of the one that follows: where translucent lines met at the corners they
  * would overlap there, and each square would have its dot.
- * @param {Edge} edge @param {{before: Edge | undefined, after: Edge | undefined}} beside @param {At} at
+ * @param {Path2D} line @param {Edge} edge @param {{before: Edge | undefined, after: Edge | undefined, at: At}} beside
  */
-function traceBend({ from, to }, { before, after }, at) {
+function traceBend(line, { from, to }, { before, after, at }) {
   const middle = (/** @type {number} */ a, /** @type {number} */ b) => {
     const [[x, y], [toX, toY]] = [at(a), at(b)];
     return /** @type {const} */ ([(x + toX) / 2, (y + toY) / 2]);
   };
-  const line = new Path2D();
   line.moveTo(...(before?.to === from ? middle(from, to) : at(from)));
   line.lineTo(...at(to));
   if (after?.from === to) line.lineTo(...middle(to, after.to));
   return line;
 }
 
-/** @param {Edge[]} edges @param {At} at */
-function trace(edges, at) {
-  const line = new Path2D();
+/** @param {Path2D} line @param {Edge[]} edges @param {At} at */
+function trace(line, edges, at) {
   for (const { from, to } of edges) {
     line.moveTo(...at(from));
     line.lineTo(...at(to));

@@ -10,8 +10,20 @@ import { colourOf, placeOf } from "#js/board/state.js";
 /** @typedef {import("#js/board/state.js").View} View */
 /** @typedef {import("#js/board/theme.js").Theme} Theme */
 /** @typedef {{cell: number, ratio: number}} Geometry   side of a square in device pixels; device pixels per CSS pixel */
-/** @typedef {{context: CanvasRenderingContext2D, geometry: Geometry, world: World, view: View, theme: Theme, look: Look}} Scene */
-/** @typedef {{pixels: ImageData, isDark: Uint8Array, loss: Float32Array}} Look   colours, where dark ink reads, 0…1 how red */
+/** @typedef {{data: Uint8ClampedArray<ArrayBuffer>, width: number, height: number}} Pixels   one a square, as ImageData has them */
+/** @typedef {{pixels: Pixels, isDark: Uint8Array, loss: Float32Array}} Look   colours, where dark ink reads, 0…1 how red */
+/**
+ * What all drawing gets. A picture for paper hands in a pen that writes SVG in place of the canvas (`pictures/pen.js`), with
+ * traces of its own, so that both are drawn by the same lines: draw with `context` and `newPath`, never with `new Path2D`.
+ * @typedef {object} Scene
+ * @property {CanvasRenderingContext2D} context
+ * @property {() => Path2D} newPath
+ * @property {Geometry} geometry
+ * @property {World} world
+ * @property {View} view
+ * @property {Theme} theme
+ * @property {Look} look
+ */
 
 const SMALLEST_HATCHED = 5;
 const SMALLEST_GRID = 6;
@@ -19,7 +31,8 @@ const SMALLEST_GRID = 6;
 /** The colour of every square, and the ink that reads on it. @param {World} world @param {View} view @param {Theme} theme @returns {Look} */
 export function lookOf(world, view, theme) {
   const n = world.rows * world.cols;
-  const look = { pixels: new ImageData(world.cols, world.rows), isDark: new Uint8Array(n), loss: new Float32Array(n) };
+  const pixels = { data: new Uint8ClampedArray(4 * n), width: world.cols, height: world.rows };
+  const look = { pixels, isDark: new Uint8Array(n), loss: new Float32Array(n) };
   const range = view.values ? (view.scale ?? symmetricRange(view.values)) : null;
   const { data } = look.pixels;
   for (let row = 0, state = 0; row < world.rows; row++) {
@@ -48,33 +61,38 @@ export function lookOf(world, view, theme) {
 /** @param {Scene} scene */
 export function drawSquares(scene) {
   const { context, geometry, world, look } = scene;
-  const [width, height] = [geometry.cell * world.cols, geometry.cell * world.rows];
   context.clearRect(0, 0, context.canvas.width, context.canvas.height);
   context.imageSmoothingEnabled = geometry.cell < 1;
-  context.drawImage(bitmap(look.pixels), 0, 0, width, height);
+  context.drawImage(bitmap(look.pixels), 0, 0, geometry.cell * world.cols, geometry.cell * world.rows);
+  drawOnSquares(scene);
+}
+
+/** What lies on the colours of the squares: hatch, grid, walls, start, goals. @param {Scene} scene */
+export function drawOnSquares(scene) {
+  const { geometry, world } = scene;
   drawLossHatch(scene);
   if (scene.view.unknown) drawUnknownHatch(scene);
-  drawGrid(scene, width, height);
+  drawGrid(scene, geometry.cell * world.cols, geometry.cell * world.rows);
   drawWalls(scene);
   drawStart(scene);
   for (const goal of world.goals) drawFlag(scene, goal);
 }
 
-/** @param {ImageData} pixels */
+/** @param {Pixels} pixels */
 function bitmap(pixels) {
   const canvas = document.createElement("canvas");
   canvas.width = pixels.width;
   canvas.height = pixels.height;
-  canvas.getContext("2d")?.putImageData(pixels, 0, 0);
+  canvas.getContext("2d")?.putImageData(new ImageData(pixels.data, pixels.width, pixels.height), 0, 0);
   return canvas;
 }
 
 /** Red squares: diagonals, the more the greater the loss, so that colour never speaks alone. @param {Scene} scene */
-function drawLossHatch({ context, geometry, world, look, theme }) {
+function drawLossHatch({ context, newPath, geometry, world, look, theme }) {
   const { cell, ratio } = geometry;
   if (cell < SMALLEST_HATCHED) return;
   const most = Math.max(1, Math.min(6, Math.floor(cell / (5 * ratio))));
-  const inks = [new Path2D(), new Path2D()];
+  const inks = [newPath(), newPath()];
   look.loss.forEach((loss, state) => {
     const n = Math.round(loss * most);
     if (n < 1) return;
@@ -86,9 +104,9 @@ function drawLossHatch({ context, geometry, world, look, theme }) {
 }
 
 /** Squares no demonstration touched: the other diagonal, in grey. @param {Scene} scene */
-function drawUnknownHatch({ context, geometry, world, view, theme }) {
+function drawUnknownHatch({ context, newPath, geometry, world, view, theme }) {
   const { cell, ratio } = geometry;
-  const path = new Path2D();
+  const path = newPath();
   for (let state = 0; state < world.rows * world.cols; state++) {
     if (!view.unknown?.[state] || colourOf(world, state) === "wall") continue;
     const [row, col] = placeOf(world, state);

@@ -15,7 +15,12 @@ import { makeScale, parseColour, WALKERS } from "#js/board/colours.js";
  * @property {string} inkLight
  * @property {string} unknown
  * @property {string} accent
- * @property {string} canvas
+ * @property {string} canvas          what halos and pages are made of
+ * @property {string} ink             words on it
+ * @property {string} inkSoft
+ * @property {string} line            hairlines
+ * @property {string} font            families
+ * @property {{human: string, white: string, pupil: string}} agent
  * @property {Record<string, string>} who
  */
 
@@ -29,6 +34,11 @@ let isWatching = false;
 export function theme() {
   current ??= readTheme();
   return current;
+}
+
+/** The colours of one scheme, whatever the page has on: a picture for paper is light. @param {"light" | "dark"} scheme @returns {Theme} */
+export function themeIn(scheme) {
+  return readTheme(scheme);
 }
 
 /** Call back when light turns dark or the other way. @param {() => void} listener @param {AbortSignal} signal */
@@ -51,11 +61,12 @@ function changed() {
   for (const listener of listeners) listener();
 }
 
-/** @returns {Theme} */
-function readTheme() {
+/** @param {"light" | "dark" | ""} [scheme] that of the page unless given @returns {Theme} */
+function readTheme(scheme = "") {
   // A custom property keeps its `light-dark()` unresolved; the colour of an element does not.
   const probe = document.createElement("i");
   probe.hidden = true;
+  probe.style.colorScheme = scheme;
   // The colours of the board are its data: a forced palette must not flatten them.
   probe.style.setProperty("forced-color-adjust", "none");
   document.body.append(probe);
@@ -78,6 +89,11 @@ function readTheme() {
     unknown: read("--board-unknown"),
     accent: read("--color-accent"),
     canvas: read("--color-surface"),
+    ink: read("--color-ink"),
+    inkSoft: read("--color-ink-soft"),
+    line: read("--color-line"),
+    font: getComputedStyle(probe).fontFamily,
+    agent: { human: read("--agent-human"), white: read("--agent-white"), pupil: read("--agent-pupil") },
     who: Object.fromEntries(Object.entries(WALKERS).map(([who, { token }]) => [who, read(token)])),
   };
   probe.remove();

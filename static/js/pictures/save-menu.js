@@ -1,0 +1,212 @@
+/**
+ * `<save-menu>`: a small button "Save ▾" that a page puts beside a board or a chart.
+ *
+ *   import { saveMenu } from "#js/pictures/save-menu.js";
+ *
+ * A board, in one line (what it shows at the moment of saving, with title, legend and the world's seed):
+ *
+ *   panel.append(saveMenu(board, { title: "What IRLFR learned" }));            // an <irl-board>
+ *
+ * A chart that is an <svg> of the page (its colours are copied, those of the light theme), in one line as well:
+ *
+ *   section.append(saveMenu(() => box.querySelector("svg"), { title: "Average return" }));
+ *
+ * Anything else says itself what it looks like:
+ *
+ *   const menu = document.createElement("save-menu");
+ *   menu.source = () => ({ name: "irlfr-convergence", title: "Convergence", svg: () => lineChartSvg(…) });
+ *
+ * Options: `name` the file's name without ending (made of the title unless given), `note` a sentence below the board, `film` (see
+ * `film.js`) where the thing moves. The title may be a function: it is asked when somebody saves. Styles: components/controls.css.
+ */
+import { IrlBoard } from "#js/elements/irl-board.js";
+import { announce } from "#js/lib/announce.js";
+import { fileNameOf, saveFile, svgBlob, toPng } from "#js/pictures/files.js";
+import { chartPicture } from "#js/pictures/page-chart.js";
+import { boardPicture } from "#js/pictures/picture.js";
+
+/**
+ * @typedef {object} Source
+ * @property {string} name      of the file, without its ending
+ * @property {string} title     what it is, for people
+ * @property {() => string} svg
+ * @property {Film} [film]
+ *
+ * @typedef {object} Film       something that moves
+ * @property {("gif" | "webm")[]} kinds
+ * @property {(kind: "gif" | "webm", watch: {signal: AbortSignal, onProgress: (share: number) => void}) => Promise<Blob>} make
+ *
+ * @typedef {{title: string | (() => string), name?: string, note?: string | (() => string), film?: () => Film | undefined}} About
+ */
+
+/** CSS pixels, as controls.css has it, with a little air. */
+const SHEET_WIDTH = 240;
+
+const KINDS = /** @type {const} */ ({
+  png: { title: "PNG", hint: "image" },
+  svg: { title: "SVG", hint: "vectors, for print" },
+  gif: { title: "GIF", hint: "moving picture" },
+  webm: { title: "WebM", hint: "film, finer" },
+});
+
+/** @param {IrlBoard | (() => Element | null)} thing @param {About} about */
+export function saveMenu(thing, about) {
+  const menu = /** @type {SaveMenu} */ (document.createElement("save-menu"));
+  menu.source = () => sourceOf(thing, about);
+  return menu;
+}
+
+export class SaveMenu extends HTMLElement {
+  #life = new AbortController();
+  /** @type {AbortController | null} */
+  #filming = null;
+  /** @type {() => Source} */
+  source = () => {
+    throw new Error("This <save-menu> has no source.");
+  };
+
+  connectedCallback() {
+    this.#life = new AbortController();
+    const { signal } = this.#life;
+    if (!this.querySelector("details")) this.#build();
+    this.addEventListener("click", (event) => this.#onClick(event), { signal });
+    this.addEventListener("keydown", (event) => this.#onKey(event), { signal });
+    this.#details.addEventListener("toggle", () => this.#fill(), { signal });
+    document.addEventListener("click", (event) => this.#onClickElsewhere(event), { signal });
+  }
+
+  disconnectedCallback() {
+    this.#life.abort();
+    this.#filming?.abort();
+  }
+
+  /** Make the file and hand it to the browser. @param {keyof typeof KINDS} kind */
+  async save(kind) {
+    const { name, svg, film } = this.source();
+    const file = `${name}.${kind}`;
+    try {
+      const blob = kind === "svg" ? svgBlob(svg()) : kind === "png" ? await toPng(svg()) : await this.#film(kind, film);
+      if (!blob) return;
+      saveFile(blob, file);
+      this.#say(`Saved as ${file}.`);
+    } catch (error) {
+      this.#say(`Your browser could not make this ${KINDS[kind].title}. SVG always works.`);
+      reportError(error);
+    }
+  }
+
+  #build() {
+    this.innerHTML = `<details class="menu save-menu"><summary class="button button--quiet"><span>Save</span> <span aria-hidden="true">▾</span></summary>
+      <div class="menu-sheet save-sheet"><div class="save-kinds" data-part="kinds"></div>
+      <div class="save-film" data-part="film" hidden><progress max="1" aria-label="The film is being made"></progress><button class="button" type="button" data-cancel>Cancel</button></div>
+      <p class="save-words" data-part="words" role="status"></p></div></details>`;
+  }
+
+  get #details() {
+    return /** @type {HTMLDetailsElement} */ (this.querySelector("details"));
+  }
+
+  /** What can be saved may have changed since the menu was last open. */
+  #fill() {
+    if (!this.#details.open) return;
+    const { title, film } = this.source();
+    this.#part("words").textContent = "";
+    const kinds = /** @type {(keyof typeof KINDS)[]} */ (["png", "svg", ...(film?.kinds ?? [])]);
+    this.#part("kinds").replaceChildren(...kinds.map((kind) => kindButton(kind, title)));
+    const { left } = this.getBoundingClientRect();
+    const room = document.documentElement.clientWidth - left;
+    this.#details.dataset.opens = room < SHEET_WIDTH ? "left" : "right";
+  }
+
+  /** @param {"gif" | "webm"} kind @param {Film | undefined} film @returns {Promise<Blob | null>} null: cancelled */
+  async #film(kind, film) {
+    if (!film) return null;
+    const filming = new AbortController();
+    this.#filming = filming;
+    this.#showFilming(true);
+    const bar = /** @type {HTMLProgressElement} */ (this.querySelector("progress"));
+    bar.value = 0;
+    this.#say("Drawing the film …");
+    try {
+      return await film.make(kind, { signal: filming.signal, onProgress: (share) => (bar.value = share) });
+    } catch (error) {
+      if (filming.signal.aborted) return null;
+      throw error;
+    } finally {
+      this.#filming = null;
+      this.#showFilming(false);
+    }
+  }
+
+  /** @param {boolean} isFilming */
+  #showFilming(isFilming) {
+    this.#part("film").hidden = !isFilming;
+    for (const button of this.#part("kinds").querySelectorAll("button")) button.disabled = isFilming;
+    if (isFilming) this.#part("film").querySelector("button")?.focus();
+    else this.querySelector("summary")?.focus();
+  }
+
+  /** @param {string} sentence */
+  #say(sentence) {
+    this.#part("words").textContent = sentence;
+    if (!this.#details.open) announce(sentence);
+  }
+
+  /** @param {MouseEvent} event */
+  #onClick(event) {
+    const button = event.target instanceof Element ? event.target.closest("button") : null;
+    if (button?.dataset.kind) this.save(/** @type {keyof typeof KINDS} */ (button.dataset.kind));
+    if (button?.dataset.cancel !== undefined) {
+      this.#filming?.abort();
+      this.#say("The film was not made.");
+    }
+  }
+
+  /** @param {KeyboardEvent} event */
+  #onKey(event) {
+    if (event.key !== "Escape" || !this.#details.open) return;
+    event.stopPropagation();
+    this.#details.open = false;
+    this.querySelector("summary")?.focus();
+  }
+
+  /** @param {MouseEvent} event */
+  #onClickElsewhere(event) {
+    if (this.#details.open && event.target instanceof Node && !this.contains(event.target)) this.#details.open = false;
+  }
+
+  /** @param {string} name */
+  #part(name) {
+    return /** @type {HTMLElement} */ (this.querySelector(`[data-part="${name}"]`));
+  }
+}
+
+/** @param {keyof typeof KINDS} kind @param {string} title of the picture */
+function kindButton(kind, title) {
+  const button = document.createElement("button");
+  button.type = "button";
+  button.className = "button";
+  button.dataset.kind = kind;
+  const hint = document.createElement("small");
+  hint.textContent = KINDS[kind].hint;
+  button.append(KINDS[kind].title, hint);
+  button.setAttribute("aria-label", `Save ${title} as ${KINDS[kind].title}, ${KINDS[kind].hint}`);
+  return button;
+}
+
+/** @param {IrlBoard | (() => Element | null)} thing @param {About} about @returns {Source} */
+function sourceOf(thing, { title: naming, note: noting = "", name, film }) {
+  const title = typeof naming === "function" ? naming() : naming;
+  const note = typeof noting === "function" ? noting() : noting;
+  const svg =
+    thing instanceof IrlBoard ? () => boardNow(thing, title, note) : () => chartPicture(thing(), { title, note });
+  return { name: name ?? `irlfr-${fileNameOf(title)}`, title, svg, ...(film ? { film: film() } : {}) };
+}
+
+/** @param {IrlBoard} board @param {string} title @param {string} note */
+function boardNow(board, title, note) {
+  if (!board.world) throw new Error("This board shows no world yet.");
+  return boardPicture(board.world, board.view, { title, note });
+}
+
+customElements.define("save-menu", SaveMenu);
