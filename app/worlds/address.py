@@ -1,6 +1,6 @@
 """A world in the query of an address, where a person reads and edits it.
 
-    rows=7&cols=9&seed=5&walls=3-5,9&start=1&goals=48,6&painted=12-14:-3.5,20:-1&step_limit=60&rank_by=pairwise
+    rows=7&cols=9&seed=5&walls=3-5,9&start=1&goals=48,6&painted=12-14:-3.5,20:-1&step_limit=60&rank_by=pairwise&pooled=1
 
 `3-5` are all squares from 3 to 5, `12-14:-3.5` paints each of them. static/js/worlds/query.js writes the same;
 tests/core/world_queries.json holds both to one table. Reading never raises: what could not be read is said field by
@@ -79,7 +79,7 @@ def read_query(text: str) -> WorldQuery:
 
 def write_query(spec: Mapping[str, Any]) -> str:
     """Write the query of the world that this body of POST /worlds makes."""
-    told = {name: value for name, value in spec.items() if value not in (None, [])}
+    told = {name: value for name, value in spec.items() if value is not False and value not in (None, [])}
     if "rows" in told or "cols" in told:
         told = {"rows": 7, "cols": 7} | told
     return "&".join(f"{name}={_write(name, told[name])}" for name in _READERS if name in told)
@@ -154,6 +154,12 @@ def _way(text: str) -> str:
     return text
 
 
+def _flag(text: str) -> bool:
+    if text not in {"0", "1"}:
+        raise _Unreadable("must be 1 for yes or 0 for no")
+    return text == "1"
+
+
 def _parts(text: str) -> Iterator[str]:
     return (part for part in map(str.strip, text.split(",")) if part)
 
@@ -184,6 +190,7 @@ _READERS: Final[Mapping[str, Callable[[str], Any]]] = {
     "step_limit": _whole(schemas.STEP_LIMIT),
     "time_limit_s": _whole(schemas.TIME_LIMIT_S),
     "rank_by": _way,
+    "pooled": _flag,
 }
 """Every field of WorldIn, in the order in which an address has them."""
 
@@ -193,6 +200,8 @@ def _write(name: str, value: Any) -> str:  # noqa: ANN401 - any field of WorldIn
         return ",".join(f"{_span(run)}:{_number(pays)}" for run, pays in _runs(value))
     if isinstance(value, str):
         return value
+    if value is True:
+        return "1"
     if isinstance(value, list):
         return ",".join(_span(run) for run, _ in _runs((square, None) for square in value))
     return _number(value)

@@ -19,6 +19,9 @@ DEFAULTS: Mapping[str, Any] = {
 }
 """What a specification says although nobody has to ask for it; all other defaults are left out of it."""
 
+OPTIONS = {"rank_by", "pooled"}
+"""What is agreed for a world beside what it is: nothing of it changes a square."""
+
 
 @dataclass(frozen=True, slots=True)
 class StoredWorld:
@@ -34,6 +37,11 @@ class StoredWorld:
         return self.spec.get("rank_by")
 
     @property
+    def pooled(self) -> bool:
+        """Whether everybody's comparisons in this world are pooled, without names."""
+        return bool(self.spec.get("pooled", False))
+
+    @property
     def smallest_body(self) -> dict[str, Any]:
         """What POST /worlds must be told to make this world again."""
         told = {name: value for name, value in self.spec.items() if name != "generator"}
@@ -41,23 +49,24 @@ class StoredWorld:
 
     def to_json(self) -> dict[str, Any]:
         """Show the world as the API has it."""
-        return {"id": self.id, **self.world.to_json(), "rank_by": self.rank_by, "spec": self.smallest_body}
+        options = {"rank_by": self.rank_by, "pooled": self.pooled}
+        return {"id": self.id, **self.world.to_json(), **options, "spec": self.smallest_body}
 
 
 def generate(parameters: WorldIn) -> StoredWorld:
     """Generate the world of a seed; without one, draw until a success is possible."""
-    numbers = parameters.model_dump(exclude={"seed", "rank_by"})
+    numbers = parameters.model_dump(exclude={"seed", *OPTIONS})
     numbers["walls"] = sorted(set(parameters.walls))
     numbers["painted"] = dict(parameters.painted)
     if parameters.seed is None:
         world = draw_playable_world(secrets.randbelow(2**32), **numbers)
     else:
         world = generate_world(parameters.seed, **numbers)
-    spec = spec_of(world, painted=numbers["painted"], rank_by=parameters.rank_by)
+    spec = spec_of(world, painted=numbers["painted"]) | _options(parameters)
     return StoredWorld(id_of(spec), world, spec)
 
 
-def spec_of(world: World, *, painted: Mapping[int, float], rank_by: Way | None) -> dict[str, Any]:
+def spec_of(world: World, *, painted: Mapping[int, float]) -> dict[str, Any]:
     """Say what a world was generated from; another generator gives other worlds other ids, old ids keep theirs.
 
     The fields after the walls came later. They are there only where they differ from their defaults, so that a world
@@ -74,7 +83,6 @@ def spec_of(world: World, *, painted: Mapping[int, float], rank_by: Way | None) 
         **_start_and_goals(world),
         **_paint(world, painted),
         **_limits(world),
-        **({} if rank_by is None else {"rank_by": rank_by}),
     }
 
 
@@ -103,6 +111,10 @@ def _limits(world: World) -> dict[str, Any]:
     usual = default_horizon(world.rows, world.cols, shortest=world.shortest_way)
     steps = {} if world.horizon == usual else {"step_limit": world.horizon}
     return steps if world.time_limit_s is None else {**steps, "time_limit_s": world.time_limit_s}
+
+
+def _options(parameters: WorldIn) -> dict[str, Any]:
+    return parameters.model_dump(include=OPTIONS, exclude_defaults=True)
 
 
 def id_of(spec: Mapping[str, Any]) -> str:

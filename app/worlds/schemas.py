@@ -95,6 +95,10 @@ class WorldIn(BaseModel):
         default=None,
         description="How attempts are ordered here: lists, pairwise, magnitude or segments. Default: as people like.",
     )
+    pooled: Annotated[bool, Field(strict=True)] = Field(
+        default=False,
+        description="Whether the comparisons of all who play here are pooled, without names, in /results?world=.",
+    )
 
 
 class WorldOut(BaseModel):
@@ -115,5 +119,6 @@ class WorldOut(BaseModel):
     horizon: int = Field(description="The most steps an attempt may have, and the horizon of planning.")
     time_limit_s: int | None = Field(description="The most seconds an attempt may last, or null.")
     rank_by: Way | None = Field(description="The one way to put attempts in order here, or null: as people like.")
+    pooled: bool = Field(description="Whether everybody's comparisons in this world are pooled, without names.")
     success_possible: bool = Field(description="Whether any attempt can reach the goal with a total of 0 or more.")
     spec: dict[str, Any] = Field(description="The smallest body of POST /worlds that makes this world again.")

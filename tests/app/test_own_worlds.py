@@ -81,6 +81,15 @@ def test_a_world_keeps_the_id_it_had_before_orders_could_be_given_in_several_way
     assert make_world(client, rank_by="pairwise")["id"] == "47df6d3e-53ab-560d-84c0-5e2657e704da"
 
 
+def test_a_world_can_pool_everybodys_results_and_is_another_then(client):
+    world, plain = make_world(client, pooled=True), make_world(client, pooled=False)
+    assert (world["pooled"], world["spec"]) == (True, {"seed": PLAYABLE_SEED, "pooled": True})
+    assert (plain["pooled"], plain["id"]) == (False, make_world(client)["id"])
+    assert world["id"] != plain["id"], "nobody who played the other was told that results are pooled"
+    assert world["rewards"] == plain["rewards"]
+    assert client.post("/api/v1/worlds", json={"pooled": "yes"}).status_code == 422
+
+
 @pytest.mark.parametrize("way", ["Lists", "alphabet", "", 1, True, ["lists"], {}])
 def test_a_way_that_is_none_is_refused_in_words(client, way):
     response = client.post("/api/v1/worlds", json={"rank_by": way})

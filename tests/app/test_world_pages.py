@@ -69,6 +69,7 @@ IMPOSSIBLE = [
     ("time_limit_s=4", "time_limit_s", "time_limit_s must be a whole number from 5 to 3600."),
     ("time_limit_s=1.5", "time_limit_s", "from 5 to 3600"),
     ("rank_by=alphabet", "rank_by", "rank_by must be lists, pairwise, magnitude or segments."),
+    ("pooled=yes", "pooled", "pooled must be 1 for yes or 0 for no."),
     ("rank_by=lists&rank_by=lists", "rank_by", "rank_by must be given once."),
     ("rows=20&cols=20&red_probability=1", "red_probability", "fewer red squares"),
     ("a=" + "b" * LONGEST, "query", "This address is too long: 60,002 characters, where 60,000 can be read."),
@@ -112,6 +113,7 @@ def test_the_spec_of_a_made_world_is_the_smallest_body_that_makes_it(client, cas
             "step_limit": st.integers(1, 20_000),
             "time_limit_s": st.integers(5, 3600),
             "rank_by": st.sampled_from(["lists", "pairwise", "magnitude", "segments"]),
+            "pooled": st.booleans(),
         },
     )
 )

@@ -136,6 +136,8 @@ test("how attempts are ordered stays through clearing, and a way there is none o
   });
   assert.deepEqual(specOf(planOf({ seed: 5, rank_by: /** @type {any} */ ("alphabet") })), { seed: 5 });
   assert.deepEqual(specOf(planOf({ seed: 5, rank_by: null })), { seed: 5 });
+  assert.deepEqual(specOf(cleared(planOf({ seed: 5, pooled: true, walls: [3] }))), { seed: 5, pooled: true });
+  assert.deepEqual(specOf(planOf({ seed: 5, pooled: false })), { seed: 5 });
 });
 
 test("a brush can be picked up from any square", () => {

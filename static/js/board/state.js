@@ -19,6 +19,7 @@
  * @property {number} horizon        steps
  * @property {number | null} time_limit_s  seconds
  * @property {Way | null} [rank_by]  the one way to put attempts in order here; null: as people like
+ * @property {boolean} [pooled]      everybody's comparisons here are pooled, without names
  * @property {WorldSpec} [spec]      what makes this world again
  * @property {boolean} [success_possible]
  */
@@ -38,6 +39,7 @@
  * @property {number | null} [step_limit]
  * @property {number | null} [time_limit_s]  seconds
  * @property {Way | null} [rank_by]
+ * @property {boolean} [pooled]
  */
 
 /**

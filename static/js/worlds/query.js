@@ -15,6 +15,7 @@
  * @property {number | null} [step_limit]
  * @property {number | null} [time_limit_s]
  * @property {import("#js/board/state.js").Way | null} [rank_by]
+ * @property {boolean} [pooled]
  */
 
 /** @typedef {{first: number, last: number, reward?: number}} Run   neighbouring squares of one reward */
@@ -46,6 +47,7 @@ function partsOf(spec) {
     step_limit: textOf(spec.step_limit),
     time_limit_s: textOf(spec.time_limit_s),
     rank_by: textOf(spec.rank_by),
+    pooled: spec.pooled ? "1" : "",
   };
 }
 

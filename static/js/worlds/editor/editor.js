@@ -13,6 +13,7 @@ import { Ground } from "#js/worlds/editor/ground.js";
 import { Hand } from "#js/worlds/editor/hand.js";
 import { History } from "#js/worlds/editor/history.js";
 import { cleared, placeAt, planOf, specOf } from "#js/worlds/editor/plan.js";
+import { PooledField } from "#js/worlds/editor/pooled-field.js";
 import { Presets } from "#js/worlds/editor/presets.js";
 import { Preview } from "#js/worlds/editor/preview.js";
 import { Report } from "#js/worlds/editor/report.js";
@@ -76,6 +77,7 @@ class EditorPage {
     refuse: announce,
   });
   #way = new WayField((rankBy) => this.change({ ...this.plan, rankBy }));
+  #pooled = new PooledField((pooled) => this.change({ ...this.plan, pooled }));
   #preview = new Preview(api.get, {
     answer: (world) => this.#learn(world),
     refuse: (problem) => this.#tell(problem),
@@ -89,7 +91,8 @@ class EditorPage {
       this.#address.show(specOf(this.plan), this.#query);
       this.#learn(this.#data.world);
     }
-    for (const part of [this.#tools, this.#fields, this.#way, this.#easel, this.#sharing]) part.listen(signal);
+    for (const part of [this.#tools, this.#fields, this.#way, this.#pooled, this.#easel, this.#sharing])
+      part.listen(signal);
     this.#presets.listen((preset) => this.change(planOf(preset.spec)), signal);
     this.#listenToButtons(signal);
     document.addEventListener("keydown", (event) => this.#onKey(event), { signal });
@@ -181,6 +184,7 @@ class EditorPage {
     this.#tools.fit(plan);
     this.#fields.show(Object.fromEntries(Object.entries(NUMBERS).map(([name, key]) => [name, plan[key]])));
     this.#way.show(plan.rankBy);
+    this.#pooled.show(plan.pooled);
     this.#presets.show(query);
     const nSteps = shortestWay(world);
     this.#report.showFacts(plan, nSteps);
@@ -221,6 +225,7 @@ class EditorPage {
   #tellFields(fields) {
     this.#fields.tell(fields);
     this.#way.tell(fields.rank_by ?? "");
+    this.#pooled.tell(fields.pooled ?? "");
     this.#marksProblem = MARKS.map((name) => fields[name] ?? "").find(Boolean) ?? "";
     this.#showMarksProblem();
   }

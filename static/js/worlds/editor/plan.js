@@ -30,6 +30,7 @@ const SHEET = LARGEST_SIDE;
  * @property {number | null} stepLimit           null: as many as the server finds usual
  * @property {number | null} timeLimitS          null: none
  * @property {Way | null} rankBy                 null: attempts are put in order as people like
+ * @property {boolean} pooled                    everybody's comparisons are pooled, without names
  * @property {number} start                      place
  * @property {ReadonlyMap<number, number | null>} goals   place → pay, null: rows + cols; empty: the last square alone
  * @property {ReadonlySet<number>} walls         places
@@ -62,6 +63,7 @@ export function planOf(spec) {
     stepLimit: spec.step_limit ?? null,
     timeLimitS: spec.time_limit_s ?? null,
     rankBy: WAYS.find((way) => way === spec.rank_by) ?? null,
+    pooled: spec.pooled === true,
     start: isStart ? placeAt(size, spec.start ?? 0) : 0,
     goals: tidyGoals(size, new Map(goals.map((square) => [placeAt(size, square), painted.get(square) ?? null]))),
     walls: new Set(squares(spec.walls).map((square) => placeAt(size, square))),
@@ -90,6 +92,7 @@ export function specOf(plan) {
     step_limit: plan.stepLimit,
     time_limit_s: plan.timeLimitS,
     rank_by: plan.rankBy,
+    pooled: plan.pooled,
   });
 }
 
@@ -171,7 +174,14 @@ export function lineOf(from, to) {
 /** @param {Required<Spec>} spec @returns {Spec} */
 function dropDefaults(spec) {
   /** @type {Record<string, unknown>} */
-  const usual = { rows: DEFAULT_SIDE, cols: DEFAULT_SIDE, red_probability: DEFAULT_RED_PROBABILITY, slip: 0, start: 0 };
+  const usual = {
+    rows: DEFAULT_SIDE,
+    cols: DEFAULT_SIDE,
+    red_probability: DEFAULT_RED_PROBABILITY,
+    slip: 0,
+    start: 0,
+    pooled: false,
+  };
   const isTold = (/** @type {[string, unknown]} */ [name, value]) =>
     value !== null && usual[name] !== value && !(Array.isArray(value) && value.length === 0);
   return Object.fromEntries(Object.entries(spec).filter(isTold));
