@@ -8,7 +8,7 @@ A policy is a matrix (S, 4), the same at every step, or a HardPlan, which looks 
 returns are what the model itself pays, and `sparse_evaluation.py` does the work.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -46,12 +46,17 @@ def expected_return(world: World | SparseMdp, policy: Policy | HardPlan, *, hori
     policy = check_executable(policy, world)
     if isinstance(world, SparseMdp):
         return sparse_evaluation.expected_return(world, policy, horizon=_n_steps(world, policy, horizon))
-    value: Vector = np.zeros(world.n_states)
-    goals = list(world.goals)
-    for law in _laws_last_step_first(world, policy, _n_steps(world, policy, horizon)):
-        value = np.einsum("sd,sd->s", law, (world.reward + value)[world.next_states])
-        value[goals] = 0.0
-    return float(value[world.start])
+    return float(_values(world, policy, _n_steps(world, policy, horizon))[world.start])
+
+
+def state_values(world: World, policy: Policy | HardPlan, *, horizon: int | None = None) -> Vector:
+    """V_N of every state of a grid, shape (S,): what is earned from there on average with N steps to go.
+
+    Raises InvalidPolicy, InvalidModel, InvalidSettings.
+    """
+    _check_pays(world)
+    policy = check_executable(policy, world)
+    return _values(world, policy, _n_steps(world, policy, horizon))
 
 
 def expected_visits(
@@ -104,9 +109,9 @@ def rollouts(
         return _sparse_rollouts(world, policy, n_episodes, rng, horizon=n_steps)
     is_goal = grid.mask(world.n_states, world.goals)
     states = np.full((n_steps + 1, n_episodes), world.start, dtype=np.int64)
-    for step, law in enumerate(_laws_first_step_first(world, policy, n_steps), start=1):
+    for step, law_at in enumerate(_laws_where(world, policy, n_steps), start=1):
         here = states[step - 1]
-        thresholds = law[here, :-1].cumsum(axis=1)
+        thresholds = law_at(here)[:, :-1].cumsum(axis=1)
         direction = (rng.random(n_episodes)[:, None] >= thresholds).sum(axis=1)
         states[step] = world.next_states[here, direction]
         if is_goal[states[step]].all():
@@ -140,6 +145,29 @@ def greedy_plan(world: World | GridMdp | SparseMdp, reward: Vector) -> HardPlan:
         checked = check_reward(reward, n_states=world.n_states)
         return sparse_evaluation.best_plan(world, checked, must_arrive=True)
     return hard_plan(world, reward, must_reach_goal=True)
+
+
+def _values(world: World, policy: Policy | HardPlan, n_steps: int) -> Vector:
+    """V_N, shape (S,)."""
+    back_up = _plan_backup(world, policy) if isinstance(policy, HardPlan) else _policy_backup(world, policy)
+    value: Vector = np.zeros(world.n_states)
+    goals = list(world.goals)
+    for n in range(1, n_steps + 1):
+        value = back_up((world.reward + value)[world.next_states], n)
+        value[goals] = 0.0
+    return value
+
+
+def _policy_backup(world: World, policy: Policy) -> Callable[[Matrix, int], Vector]:
+    """From what each direction is worth, shape (S, 4), to what the policy is; it looks at no clock."""
+    law = direction_law(world, policy)
+    return lambda ahead, _: np.einsum("sd,sd->s", law, ahead)
+
+
+def _plan_backup(world: World, plan: HardPlan) -> Callable[[Matrix, int], Vector]:
+    """The same of a plan with n steps to go. T is symmetric, so what mixes actions mixes what directions are worth."""
+    everywhere = np.arange(world.n_states)
+    return lambda ahead, n: direction_law(world, ahead)[everywhere, plan.actions[n - 1]]
 
 
 def _sparse_rollouts(
@@ -183,11 +211,17 @@ def _laws_first_step_first(world: World | GridMdp, policy: Policy | HardPlan, n_
     return (law for _ in range(n_steps))
 
 
-def _laws_last_step_first(world: World, policy: Policy | HardPlan, n_steps: int) -> Iterator[Matrix]:
+def _laws_where(world: World, policy: Policy | HardPlan, n_steps: int) -> Iterator[Callable[[IntVector], Matrix]]:
+    """The direction law of each step, the first step first, asked for some states only: shape (n,) → (n, 4)."""
     if isinstance(policy, HardPlan):
-        return (_plan_law(world, policy, n) for n in range(1, n_steps + 1))
+        return (_plan_law_where(world, actions) for actions in policy.actions[n_steps - 1 :: -1])
     law = direction_law(world, policy)
-    return (law for _ in range(n_steps))
+    return (law.__getitem__ for _ in range(n_steps))
+
+
+def _plan_law_where(world: World, actions: np.ndarray[tuple[int], np.dtype[np.int8]]) -> Callable[[IntVector], Matrix]:
+    always: Matrix = np.eye(grid.N_ACTIONS)
+    return lambda here: direction_law(world, always[actions[here]])
 
 
 def _plan_law(world: World | GridMdp, plan: HardPlan, n: int) -> Matrix:

@@ -13,11 +13,17 @@ _NOT_YET = {
 }
 
 
+_NOT_IN_0_4 = dict.fromkeys(("human", "value_lost", "value_lost_scale", "tests"))
+_NOT_IN_ENTRIES_OF_0_4 = dict.fromkeys(("interval_low", "interval_high", "success_rate", "mean_steps"))
+"""What comparisons that were stored before it was measured lack."""
+
+
 def comparison_of(run: Run) -> dict[str, Any]:
     """Return the comparison of a run. Raises Conflict while there is none."""
     if run.comparison is None:
         raise Conflict(_NOT_YET[run.status], code="no_comparison")
-    return {"run_id": run.id, **run.comparison}
+    entries = [_NOT_IN_ENTRIES_OF_0_4 | entry for entry in run.comparison["entries"]]
+    return {"run_id": run.id, **_NOT_IN_0_4, **run.comparison, "entries": entries}
 
 
 def rollouts_of(run: Run) -> dict[str, Any]:

@@ -3,8 +3,9 @@
 World k, whatever the kind of demonstrator, is the first playable one drawn from SeedSequence([seed, k]). The j-th draw
 of it is played with the stream SeedSequence([seed, k, j, the kind's name]); where this demonstrator never fails or
 never succeeds, the next world of the same stream is drawn instead and counted (`n_redrawn`). Learners and episodes are
-seeded by the world's own seed, and episodes by the learner's name besides, just as `irl_core.compare` does it. So the
-outcome of a world depends on nothing but the spec, the kind and k.
+seeded by the world's own seed, and episodes by the learner's name besides: over many worlds nobody's luck is shared,
+while `irl_core.compare` lets everybody share it within one. So the outcome of a world depends on nothing but the spec,
+the kind and k.
 """
 
 import math
