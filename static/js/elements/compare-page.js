@@ -8,6 +8,7 @@ import { Beliefs } from "#js/comparisons/beliefs.js";
 import { Figures } from "#js/comparisons/figures.js";
 import { Stage } from "#js/comparisons/stage.js";
 import { TakeAway } from "#js/comparisons/take-away.js";
+import { Why } from "#js/comparisons/why/why.js";
 import { untouched } from "#js/learning/material.js";
 import { pageData } from "#js/lib/page-data.js";
 
@@ -27,7 +28,13 @@ export class ComparePage extends HTMLElement {
     this.#life = new AbortController();
     const { signal } = this.#life;
     const parts = this.#parts(pageData());
-    for (const part of [new Figures(parts), new Stage(parts), new Beliefs(parts), new TakeAway(parts)]) {
+    for (const part of [
+      new Figures(parts),
+      new Stage(parts),
+      new Beliefs(parts),
+      new Why(parts),
+      new TakeAway(parts),
+    ]) {
       part.start(signal);
     }
   }

@@ -1,0 +1,43 @@
+/**
+ * What every question of "Why" is about: the run, its attempts, and whose they are.
+ * @import {Attempt} from "#js/comparisons/why/types.js"
+ * @import {Who, Whose} from "#js/comparisons/why/words.js"
+ * @import {Parts} from "#js/elements/compare-page.js"
+ * @import {ComparePageData, Entry} from "#js/comparisons/types.js"
+ * @import {Result, World} from "#js/learning/types.js"
+ */
+import { attemptsOf } from "#js/comparisons/why/attempts.js";
+
+/** @typedef {Who & { name: string, entry: Entry | null, result: Result }} Asked   the learner that is asked about */
+/**
+ * @typedef {object} About
+ * @property {string} runId
+ * @property {World} world
+ * @property {Attempt[]} attempts
+ * @property {Whose} whose
+ * @property {boolean} leavesOut failures that never reached the goal are not learned from
+ * @property {Asked[]} learners
+ * @property {{ human: Entry | null, optimal: Entry | null }} others
+ */
+
+/** @param {Parts} parts @returns {About} */
+export function aboutOf({ data, entries }) {
+  const { world, run, learners, is_own } = /** @type {ComparePageData & { is_own?: boolean }} */ (data);
+  const entryOf = (/** @type {string} */ who) => entries.find((entry) => entry.who === who) ?? null;
+  return {
+    runId: run.id,
+    world,
+    attempts: attemptsOf(data),
+    whose: is_own === false ? "the player's" : "your",
+    leavesOut: run.settings.unfinished_failures !== "include",
+    learners: learners
+      .filter(({ name }) => run.learners[name]?.policy)
+      .map((learner) => ({ ...learner, entry: entryOf(learner.name), result: run.learners[learner.name] ?? empty() })),
+    others: { human: entryOf("human"), optimal: entryOf("optimal") },
+  };
+}
+
+/** @returns {Result} */
+function empty() {
+  return { outcome: null };
+}

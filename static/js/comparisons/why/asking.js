@@ -1,0 +1,83 @@
+/**
+ * One question at a time, and the newest wins: the answer to an older one is never heard. What was answered is kept, for
+ * a run never changes and so the same question has the same answer. No DOM here.
+ */
+import { ApiError } from "#js/lib/api.js";
+
+/** @typedef {{ sentence: string, mayRetry: boolean }} Trouble */
+/**
+ * @template Answer
+ * @typedef {object} Listener
+ * @property {() => void} wait                    an answer is under way; the one before may stand until it comes
+ * @property {(answer: Answer) => void} answer
+ * @property {(trouble: Trouble) => void} fail
+ */
+/** @typedef {(options: { signal: AbortSignal }) => Promise<any>} Send */
+
+const GONE = "This run is no longer there: it was deleted, or its link was taken back.";
+
+/** @template Answer */
+export class Asking {
+  #listener;
+  #call = new AbortController();
+  /** @type {Map<string, Answer>} */
+  #known = new Map();
+  /** @type {{ name: string, send: Send } | null} the question that has no answer yet */
+  #open = null;
+
+  /** @param {Listener<Answer>} listener */
+  constructor(listener) {
+    this.#listener = listener;
+  }
+
+  /**
+   * @param {string} name the same for the same question
+   * @param {Send} send
+   */
+  ask(name, send) {
+    if (this.#open?.name === name && !this.#call.signal.aborted) return;
+    this.stop();
+    const known = this.#known.get(name);
+    if (known !== undefined) return this.#listener.answer(known);
+    this.#open = { name, send };
+    void this.#send();
+  }
+
+  /** Once more: somebody pressed "Ask again", or the network is back. */
+  again() {
+    this.#call.abort();
+    if (this.#open) void this.#send();
+  }
+
+  /** What is under way is no longer wanted. */
+  stop() {
+    this.#call.abort();
+    this.#open = null;
+  }
+
+  async #send() {
+    const { name, send } = /** @type {{ name: string, send: Send }} */ (this.#open);
+    const call = new AbortController();
+    this.#call = call;
+    this.#listener.wait();
+    try {
+      const answer = await send({ signal: call.signal });
+      if (call.signal.aborted) return;
+      this.#open = null;
+      this.#known.set(name, answer);
+      this.#listener.answer(answer);
+    } catch (error) {
+      if (call.signal.aborted) return;
+      call.abort(); // over: the same question may be asked again
+      this.#listener.fail(troubleOf(error));
+    }
+  }
+}
+
+/** @param {unknown} error @returns {Trouble} */
+export function troubleOf(error) {
+  if (!(error instanceof ApiError)) throw error;
+  if (error.status === 404) return { sentence: GONE, mayRetry: false };
+  // A conflict is another question of the same visitor, or a run that is not done: both pass.
+  return { sentence: error.message, mayRetry: error.isTemporary || error.status === 409 };
+}

@@ -1,0 +1,65 @@
+/**
+ * "What does it not know?": the squares on which the draws disagree, and what that means for what it earns.
+ * @import {About, Asked} from "#js/comparisons/why/about.js"
+ * @import {Uncertainty} from "#js/comparisons/why/types.js"
+ */
+import { MarkedBoard } from "#js/comparisons/why/marked-board.js";
+import { Panel } from "#js/comparisons/why/panel.js";
+import { othersMarks, showReturns } from "#js/comparisons/why/return-scale.js";
+import { doubtWords } from "#js/comparisons/why/square-words.js";
+import { doubtful, doubtSentence, intervalSentence } from "#js/comparisons/why/words.js";
+import { api } from "#js/lib/api.js";
+import { runApi } from "#js/lib/run-address.js";
+
+export class Doubt {
+  #about;
+  #board;
+  /** @type {Panel<Uncertainty>} */
+  panel;
+
+  /**
+   * @param {HTMLDetailsElement} details
+   * @param {About} about
+   * @param {AbortSignal} signal
+   */
+  constructor(details, about, signal) {
+    this.#about = about;
+    this.panel = new Panel(details, (answer) => this.#draw(answer), signal);
+    const template = /** @type {HTMLTemplateElement} */ (document.querySelector("#why-board"));
+    this.#board = new MarkedBoard(template, about.world, "Where it is sure", signal);
+    this.panel.part("board").replaceChildren(this.#board.element);
+  }
+
+  /** @param {Asked} who */
+  ask({ name }) {
+    const path = runApi(this.#about.runId, `/uncertainty?learner=${name}`);
+    this.panel.ask(name, (options) => api.get(path, options));
+  }
+
+  /** @param {Uncertainty} found */
+  #draw(found) {
+    const { learners, world, others, whose } = this.#about;
+    const who = /** @type {Asked} */ (learners.find(({ name }) => name === found.learner));
+    const belief = { reward: (who.result.reward ?? []).flat(), policy: who.result.policy ?? [] };
+    this.#board.show({
+      view: {
+        values: new Array(belief.reward.length).fill(0), // plain ground: the hatch is what there is to see
+        arrows: belief.policy,
+        unknown: doubtful(found.policy_agreement, world),
+      },
+      label: `The arrows of ${who.title}, hatched where it is not sure of its step.`,
+      read: (state) => doubtWords(world, state, belief, found),
+    });
+    const expected = who.entry?.expected_return ?? null;
+    showReturns(this.panel.part("returns"), {
+      interval: [found.return_low, found.return_high],
+      marks: [
+        ...(expected === null ? [] : [{ who: who.name, at: expected, words: "as it is" }]),
+        ...othersMarks(others, whose),
+      ],
+    });
+    this.panel.part("interval").textContent = intervalSentence(found, { who });
+    this.panel.part("method").textContent = found.sentence;
+    return doubtSentence(found, { who, world });
+  }
+}

@@ -1,0 +1,157 @@
+/**
+ * "What if?": one thing otherwise, the learner learns again, and the difference is drawn. Every change is against the run
+ * as it is.
+ * @import {About, Asked} from "#js/comparisons/why/about.js"
+ * @import {Change, WhatIf as Answer} from "#js/comparisons/why/types.js"
+ */
+import { symmetricRange } from "#js/board/colours.js";
+import { significant } from "#js/charts/figures.js";
+import { changedPlay } from "#js/comparisons/why/attempts.js";
+import { Chooser } from "#js/comparisons/why/chooser.js";
+import { MarkedBoard } from "#js/comparisons/why/marked-board.js";
+import { Panel } from "#js/comparisons/why/panel.js";
+import { othersMarks, showReturns } from "#js/comparisons/why/return-scale.js";
+import { differenceWords, squareWords } from "#js/comparisons/why/square-words.js";
+import { whatIfSentence } from "#js/comparisons/why/words.js";
+import { untouched } from "#js/learning/material.js";
+import { api } from "#js/lib/api.js";
+import { runApi } from "#js/lib/run-address.js";
+
+export class WhatIf {
+  #about;
+  #details;
+  #signal;
+  #onChange;
+  /** @type {Chooser | null} */
+  #chooser = null;
+  /** @type {Record<"before" | "after" | "difference", MarkedBoard> | null} */
+  #boards = null;
+  /** @type {Change | null} */
+  #change = null;
+  /** @type {Panel<Answer>} */
+  panel;
+
+  /**
+   * @param {HTMLDetailsElement} details
+   * @param {About} about
+   * @param {() => void} onChange somebody asked for another change
+   * @param {AbortSignal} signal
+   */
+  constructor(details, about, onChange, signal) {
+    this.#details = details;
+    this.#about = about;
+    this.#onChange = onChange;
+    this.#signal = signal;
+    this.panel = new Panel(details, (answer) => this.#draw(answer), signal);
+    this.panel.part("undo").addEventListener("click", () => this.#undo(), { signal });
+  }
+
+  get change() {
+    return this.#change;
+  }
+
+  /** One that speaks of attempts that are not in this run is none. @param {Change | null} change */
+  set change(change) {
+    const ids = change === null ? [] : Object.values(change).flat();
+    const isKnown = ids.every((id) => this.#about.attempts.some((one) => one.id === id));
+    this.#change = isKnown ? change : null;
+    if (this.#chooser) this.#chooser.change = this.#change;
+    if (this.#change === null) this.panel.clear();
+  }
+
+  focus() {
+    this.#chooser?.focus();
+  }
+
+  /** @param {Asked} who */
+  ask({ name }) {
+    this.#furnish();
+    const change = this.#change;
+    if (!change) return;
+    const path = runApi(this.#about.runId, "/what-ifs");
+    this.panel.ask(JSON.stringify([name, change]), (options) => api.post(path, { learner: name, change }, options));
+  }
+
+  /** The attempts and the boards are made when the part is first opened. */
+  #furnish() {
+    if (this.#chooser) return;
+    const choose = (/** @type {Change} */ change) => {
+      this.#change = change;
+      this.#onChange();
+    };
+    this.#chooser = new Chooser(this.#details, this.#about, choose, this.#signal);
+    this.#chooser.change = this.#change;
+    const template = /** @type {HTMLTemplateElement} */ (document.querySelector("#why-board"));
+    const board = (/** @type {string} */ title) => new MarkedBoard(template, this.#about.world, title, this.#signal);
+    this.#boards = { before: board("As it is"), after: board("What if"), difference: board("What changes") };
+    this.panel.part("boards").replaceChildren(...Object.values(this.#boards).map(({ element }) => element));
+  }
+
+  #undo() {
+    this.change = null;
+    this.#onChange();
+    this.focus();
+  }
+
+  /** @param {Answer} answer */
+  #draw(answer) {
+    const { learners, attempts, world } = this.#about;
+    const who = /** @type {Asked} */ (learners.find(({ name }) => name === answer.learner));
+    this.#drawBoards(answer, who);
+    this.#drawReturns(answer, who);
+    const sentence = whatIfSentence(answer, attempts, { ...this.#about, who, world });
+    const isLost = answer.result.outcome === "diverged";
+    return isLost ? `${sentence} ${answer.result.sentence}` : sentence;
+  }
+
+  /** Before and after on one scale, so that the same colour is the same reward. @param {Answer} answer @param {Asked} who */
+  #drawBoards({ result, difference, change }, who) {
+    if (!this.#boards) return;
+    const { world, attempts } = this.#about;
+    const before = { reward: (who.result.reward ?? []).flat(), policy: who.result.policy ?? [] };
+    const after = { reward: result.reward.flat(), policy: result.policy };
+    const scale = symmetricRange([...before.reward, ...after.reward]);
+    const framed = difference.turned;
+    const demonstrations = attempts.map(({ demonstration }) => demonstration);
+    const view = (/** @type {typeof before} */ { reward, policy }, /** @type {typeof demonstrations} */ play) => ({
+      values: reward,
+      arrows: policy,
+      scale,
+      unknown: untouched(world, play, who),
+    });
+    this.#boards.before.show({
+      view: view(before, demonstrations),
+      framed,
+      label: `The reward ${who.title} learned and its arrows, as they are.`,
+      read: (state) => squareWords(world, state, before),
+    });
+    this.#boards.after.show({
+      view: view(after, changedPlay(demonstrations, change)),
+      framed,
+      label: `The same after the change; ${framed.length} arrows turned.`,
+      read: (state) => squareWords(world, state, after, before),
+    });
+    const range = symmetricRange(difference.reward);
+    this.#boards.difference.show({
+      view: { values: difference.reward, scale: range },
+      framed,
+      ends: [`${significant(-range[1])} less`, `${significant(range[1])} more`],
+      label: `How the learned reward of each square changes.`,
+      read: (state) => differenceWords(world, state, before, after),
+    });
+  }
+
+  /** @param {Answer} answer @param {Asked} who */
+  #drawReturns({ before, expected_return }, { name }) {
+    const { others, whose } = this.#about;
+    showReturns(this.panel.part("returns"), {
+      moves: [before.expected_return, expected_return],
+      marks: [
+        { who: name, at: before.expected_return, words: "as it is", isGhost: true },
+        { who: name, at: expected_return, words: "what if" },
+        // Without the person, who often stands so far off that the move itself could not be seen.
+        ...othersMarks({ ...others, human: null }, whose),
+      ],
+    });
+  }
+}
