@@ -6,13 +6,13 @@ summary = summarise(outcomes)[0]                   # shares of the optimum with 
 print(markdown(summarise(outcomes)))               # draw_figure(summaries, path) for the picture
 """
 
-from irl_core.experiment.bootstrap import Estimate
 from irl_core.experiment.chunk import run_chunk
 from irl_core.experiment.figure import draw_figure
 from irl_core.experiment.outcomes import MEASURES, LearnerOutcome, Measure, WorldOutcome
 from irl_core.experiment.spec import ExperimentSpec
 from irl_core.experiment.summary import KindSummary, LearnerSummary, summarise
 from irl_core.experiment.tables import Table, markdown, tables
+from irl_core.many_worlds.bootstrap import Estimate
 
 __all__ = [
     "MEASURES",

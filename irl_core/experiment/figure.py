@@ -10,11 +10,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from irl_core.experiment.bootstrap import Estimate
 from irl_core.experiment.summary import KindSummary
 from irl_core.experiment.tables import title_of
 from irl_core.learners import LEARNERS
 from irl_core.learners.base import Family
+from irl_core.many_worlds.bootstrap import Estimate
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

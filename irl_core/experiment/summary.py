@@ -9,19 +9,18 @@ return of the soft policy that is larger than the mean of the demonstrations.
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
 from irl_core.arrays import Matrix, Vector
 from irl_core.checks import shown
 from irl_core.errors import IrlError
-from irl_core.experiment.bootstrap import Estimate, Resamples, estimate
 from irl_core.experiment.outcomes import MEASURES, Measure, WorldOutcome, finite_or_none
 from irl_core.experiment.table_one import TableOne, table_one
 from irl_core.learners import LEARNERS
-
-_SAME_SHARE: Final = 1e-9
+from irl_core.many_worlds.bootstrap import Estimate, Resamples, estimate
+from irl_core.many_worlds.duels import duels, midranks
 
 
 @dataclass(frozen=True)
@@ -129,7 +128,7 @@ def _summary_of_kind(kind: str, worlds: Sequence[WorldOutcome], seed: int) -> Ki
     resamples = Resamples(optima, seed)
     returns = {measure: _returns(worlds, names, measure) for measure in MEASURES}
     shares = {measure: resamples.shares(returns[measure]) for measure in MEASURES}
-    places = {measure: _midranks(returns[measure], optima) for measure in MEASURES}
+    places = {measure: midranks(_last_without(returns[measure]), optima) for measure in MEASURES}
     above = np.isfinite(returns["soft"]) & (np.nan_to_num(returns["soft"]) > human[:, None])
     learners = [
         LearnerSummary(
@@ -165,24 +164,14 @@ def _returns(worlds: Sequence[WorldOutcome], names: Sequence[str], measure: Meas
     return returns
 
 
-def _duels(returns: Matrix, optima: Vector) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
-    """Whether row i earned more than j, and whether as much, in each world, both of shape (n, L, L)."""
-    scores = np.where(np.isfinite(returns), returns, -np.finfo(np.float64).max)
-    ahead, behind = scores[:, :, None], scores[:, None, :]
-    tolerance = _SAME_SHARE * np.where(optima == 0.0, 1.0, np.abs(optima))[:, None, None]
-    wins = ahead > behind + tolerance
-    return wins, ~wins & ~wins.transpose(0, 2, 1)
-
-
-def _midranks(returns: Matrix, optima: Vector) -> Matrix:
-    """The place of each learner in each world, shape (n, L)."""
-    wins, ties = _duels(returns, optima)
-    midranks: Matrix = 1.0 + wins.sum(axis=1) + (ties.sum(axis=1) - 1.0) / 2.0  # everybody ties with itself
-    return midranks
+def _last_without(returns: Matrix) -> Matrix:
+    """Scores by which a learner without a figure comes last."""
+    scores: Matrix = np.where(np.isfinite(returns), returns, -np.finfo(np.float64).max)
+    return scores
 
 
 def _wins(returns: Matrix, optima: Vector) -> tuple[tuple[float, ...], ...]:
-    wins, ties = _duels(returns, optima)
+    wins, ties = duels(_last_without(returns), optima)
     return tuple(tuple(row) for row in (wins + 0.5 * ties).mean(axis=0).tolist())
 
 

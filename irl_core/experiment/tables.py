@@ -7,10 +7,10 @@ from statistics import fmean
 from typing import Final
 
 from irl_core.demonstrators import DEMONSTRATORS
-from irl_core.experiment.bootstrap import Estimate
 from irl_core.experiment.outcomes import Measure
 from irl_core.experiment.summary import KindSummary, LearnerSummary
 from irl_core.learners import LEARNERS
+from irl_core.many_worlds.bootstrap import Estimate
 
 _HOW: Final[dict[Measure, str]] = {
     "episodes": "played episodes",

@@ -24,8 +24,8 @@ from irl_core.experiment import (
     tables,
 )
 from irl_core.experiment import chunk as chunks
-from irl_core.experiment.bootstrap import Resamples, estimate
 from irl_core.learners import LearningProblem, learn
+from irl_core.many_worlds.bootstrap import Resamples, estimate
 from tests.core import naive_experiment as naive
 
 PAPER = ("meirl", "irlr", "irlf", "irlfr")
@@ -73,7 +73,7 @@ def test_specs_and_outcomes_are_the_same_after_json(outcomes):
 
 
 def test_the_figures_are_those_of_compare():
-    """The experiment measures a world as the comparison page does with the world's seed."""
+    """What is exact is measured as the comparison page does it; the episodes are the experiment's own."""
     [outcome] = run_chunk(SPEC, "wanderer", 2, 3)
     world, shown, n_redrawn = chunks.play_world(SPEC, "wanderer", 2)
     assert (world.seed, n_redrawn) == (outcome.world_seed, outcome.n_redrawn)
@@ -85,7 +85,6 @@ def test_the_figures_are_those_of_compare():
     assert outcome.optimum == entries["optimal"].expected_return
     assert outcome.human_mean == entries["human"].mean_return
     for name, learned in outcome.learners.items():
-        assert learned.mean_return == entries[name].mean_return
         assert learned.expected_return == entries[name].expected_return
         assert learned.greedy_return == entries[name].greedy_return
 

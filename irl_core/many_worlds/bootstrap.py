@@ -1,13 +1,14 @@
 """Shares of the optimum over many worlds, with percentile bootstrap intervals.
 
-The share of a column x of returns is Σ_k x_k / Σ_k o_k, o_k the optimum of world k: the ratio of means, which a world
-with hardly anything to win does not upset as it would the mean of ratios. A resample draws n worlds out of n with
-replacement; all columns see the same resamples, so differences between them are paired by world. Worlds without a
-figure (NaN) count on neither side of the line. Intervals run from the 2.5th to the 97.5th percentile of 2,000 resamples
-(Efron & Tibshirani 1993, Sec. 13.3).
+The share of a column x of returns is Σ_k x_k / Σ_k o_k, o_k the optimum of comparison k: the ratio of means, which a
+world with hardly anything to win does not upset as it would the mean of ratios. A resample draws the n independent
+units (worlds; or people, each with all their worlds) out of n with replacement; all columns see the same resamples, so
+differences between them are paired. Comparisons without a figure (NaN) count on neither side of the line. Intervals run
+from the 2.5th to the 97.5th percentile of 2,000 resamples (Efron & Tibshirani 1993, Sec. 13.3).
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -40,13 +41,18 @@ class Estimate:
 
 
 class Resamples:
-    """The worlds of one demonstrator, drawn again and again: `counts` says how often each, shape (1 + resamples, n)."""
+    """Comparisons drawn again and again: `counts` says how often each, shape (1 + resamples, n).
 
-    def __init__(self, optima: Vector, seed: int) -> None:
-        n_worlds = len(optima)
+    `units` numbers the unit of each comparison (0, 1, …): those of one unit are drawn together. Without it, each
+    comparison is a unit of its own.
+    """
+
+    def __init__(self, optima: Vector, seed: int, *, units: Sequence[int] | None = None) -> None:
+        of_unit = np.arange(len(optima)) if units is None else np.asarray(units)
+        n_units = int(of_unit.max()) + 1
         rng = np.random.default_rng(np.random.SeedSequence([seed, *b"bootstrap"]))
-        drawn = rng.multinomial(n_worlds, np.full(n_worlds, 1.0 / n_worlds), size=N_RESAMPLES)
-        self._counts: Matrix = np.vstack([np.ones(n_worlds), drawn])  # row 0 is the sample itself
+        drawn = rng.multinomial(n_units, np.full(n_units, 1.0 / n_units), size=N_RESAMPLES)
+        self._counts: Matrix = np.vstack([np.ones(n_units), drawn])[:, of_unit]  # row 0 is the sample itself
         self._optima = optima
 
     def shares(self, returns: Matrix) -> Matrix:
