@@ -1,20 +1,23 @@
-"""Everybody on one world: means, shares, places."""
+"""Everybody on one world: means and how far they are known, shares, places, what is lost where."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from irl_core import (
+    LearningProblem,
+    Settings,
     World,
     compare,
-    expected_return,
-    greedy_plan,
     learn,
+    optimal_plan,
     optimum,
     simulate,
 )
 from irl_core.comparison import places
+from tests import recomputed
 from tests.core.examples import DOWN, RIGHT, UP, make_problem, make_world
 
 PAPER = ("meirl", "irlr", "irlf", "irlfr")
@@ -54,21 +57,79 @@ def test_by_hand_the_human_is_the_mean_of_their_attempts(problem, comparison):
     assert human.standard_error == pytest.approx(np.std(totals, ddof=1) / np.sqrt(6))
     assert (human.expected_return, human.greedy_return, human.episodes) == (None, None, 6)
     assert human.share_of_optimum == pytest.approx(np.mean(totals) / optimum(problem.world))
+    assert human.success_rate == 0.5
     assert [list(one.states) for one in comparison.rollouts["human"]] == [
         one.states.tolist() for one in problem.demonstrations
     ]
+    best, mean = comparison.human.best, comparison.human.mean
+    assert best == problem.demonstrations[0].id
+    assert mean == min(problem.demonstrations, key=lambda one: abs(one.total - np.mean(totals))).id
 
 
-def test_a_learner_is_its_policy_exactly_in_episodes_and_as_a_plan(problem, results, comparison):
-    for result in results:
-        one = entry(comparison, result.learner)
-        assert one.expected_return == expected_return(problem.world, result.policy)
-        assert one.greedy_return == expected_return(problem.world, greedy_plan(problem.world, result.reward))
-        totals = [episode.total for episode in comparison.rollouts[result.learner]]
-        assert (len(totals), one.episodes) == (50, 50)
-        assert one.mean_return == pytest.approx(np.mean(totals))
-        assert one.standard_error == pytest.approx(np.std(totals, ddof=1) / np.sqrt(50))
-        assert one.share_of_optimum == pytest.approx(one.expected_return / optimum(problem.world))
+def slippery_problem():
+    """A world that has everything, a square that nobody comes to among it, and three who wander in it."""
+    world = make_world(4, 5, seed=2, slip=0.2, walls=(7, 3, 9), goals=(19, 15), horizon=30)
+    wanderings = [np.random.default_rng(k).integers(0, 4, 4).tolist() for k in range(3)]
+    attempts = [simulate(world, actions, attempt_id=f"wanderer-{k}") for k, actions in enumerate(wanderings)]
+    return LearningProblem.build(world, attempts, (), Settings(unfinished_failures="include"))
+
+
+@pytest.mark.parametrize(
+    ("problem", "names"),
+    [
+        (make_problem(iterations=20), ("meirl", "irlfr", "bc", "birlfr")),
+        (slippery_problem(), ("birlfr",)),
+    ],
+    ids=["the paper's world", "slip, walls, two goals"],
+)
+def test_every_figure_is_what_loops_that_share_no_code_make_of_policies_and_episodes(problem, names):
+    results = [learn(name, problem) for name in names]
+    chances = np.random.default_rng(0).dirichlet(np.ones(4), problem.world.n_states)
+    results.append(replace(results[0], learner="random", policy=chances))
+    told = compare(problem.world, problem.demonstrations, results, seed=3).to_json()
+    ours = recomputed.comparison(
+        problem.world.to_json(),
+        [one.to_json() for one in problem.demonstrations],
+        {one.learner: one.to_json() for one in results},
+        told["rollouts"],
+        seed=3,
+    )
+    assert recomputed.differences(told, ours) == []
+    assert told["value_lost_scale"] > 0.0
+
+
+def test_who_does_the_same_does_the_same_in_every_episode(problem, results):
+    """Common random numbers: two of one policy walk alike, so that nothing but policies is compared."""
+    twin = replace(results[0], learner="irlr")
+    found = compare(problem.world, [], [results[0], twin], seed=5)
+    assert found.rollouts["meirl"] == found.rollouts["irlr"]
+    [test] = found.tests
+    assert (test.mean_difference, test.low, test.high, test.p_value, test.p_adjusted) == (0.0, 0.0, 0.0, 1.0, 1.0)
+
+
+def test_nobody_loses_anything_who_plans_on_the_true_reward(problem, results):
+    best = optimal_plan(problem.world).actions[-1]
+    wise = replace(results[0], policy=np.eye(4)[best])
+    found = compare(problem.world, [], [wise], seed=1)
+    assert found.value_lost_scale == pytest.approx(0.0, abs=1e-9)
+    assert entry(found, "meirl").share_of_optimum == pytest.approx(1.0)
+
+
+def test_the_scale_of_losses_ends_at_what_is_at_stake():
+    problem = make_problem(iterations=5)
+    found = compare(problem.world, [], [learn("random", problem)], seed=1)
+    assert found.value_lost["random"].max() > 100.0
+    assert found.value_lost_scale == optimal_plan(problem.world).values[-1].max()
+
+
+def test_one_attempt_is_both_best_and_mean_and_has_no_interval(problem):
+    one = problem.demonstrations[3]
+    found = compare(problem.world, [one], [], seed=0)
+    human = entry(found, "human")
+    assert (found.human.best, found.human.mean) == (one.id, one.id)
+    assert (human.interval_low, human.interval_high, human.standard_error) == (None, None, 0.0)
+    assert found.tests == ()
+    assert compare(problem.world, [], [], seed=0).human is None
 
 
 def test_episodes_depend_on_the_seed_and_the_player_alone(problem, results, comparison):
@@ -83,9 +144,15 @@ def test_the_json_is_that_of_the_api(comparison):
     data = json.loads(json.dumps(comparison.to_json()))
     assert (data["seed"], data["horizon"]) == (3, 98)
     assert data["entries"][0].keys() == {
-        "who", "title", "mean_return", "standard_error", "expected_return", "greedy_return", "share_of_optimum",
-        "place", "episodes",
+        "who", "title", "mean_return", "standard_error", "interval_low", "interval_high", "success_rate", "mean_steps",
+        "expected_return", "greedy_return", "share_of_optimum", "place", "episodes",
     }  # fmt: skip
+    assert data["human"].keys() == {"best", "mean"}
+    assert data["value_lost"].keys() == set(PAPER)
+    assert [len(lost) for lost in data["value_lost"].values()] == 4 * [49]
+    assert [(test["a"], test["b"]) for test in data["tests"]][:3] == [
+        ("meirl", "irlr"), ("meirl", "irlf"), ("meirl", "irlfr"),
+    ]  # fmt: skip
     assert data["rollouts"]["meirl"][0].keys() == {"states", "total", "reached_goal"}
 
 
