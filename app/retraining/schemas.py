@@ -1,9 +1,10 @@
 """What crosses the wire when learning again at once."""
 
-from typing import Annotated
+from typing import Annotated, Any, Self
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from app.demonstrations.schemas import Id
 from app.learning.schemas import Word
 from app.rankings.events import Groups
 
@@ -49,6 +50,46 @@ class PreviewIn(BaseModel):
     orders: OrdersIn = Field(description="The orders to learn from, confirmed or not; nothing of them is stored.")
 
 
+class ChangeIn(BaseModel):
+    """One thing that might have been otherwise."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    drop: Id | None = Field(default=None, description="Leave this attempt out.")
+    swap: tuple[Id, Id] | None = Field(default=None, description="Let these two of one order trade places.")
+    relabel: Id | None = Field(
+        default=None,
+        description="Call a success a failure, the least bad; or a failure that reached a goal a success, the last.",
+    )
+
+    @model_validator(mode="after")
+    def _is_one(self) -> Self:
+        if len(self.told) != 1:
+            message = "must say one change: drop, swap or relabel"
+            raise ValueError(message)
+        return self
+
+    @property
+    def told(self) -> dict[str, Any]:
+        """The change, without what it does not say."""
+        return self.model_dump(exclude_none=True)
+
+
+class WhatIfIn(BaseModel):
+    """Which learner of the run shall learn again, and from what change."""
+
+    model_config = ConfigDict(
+        extra="forbid",
+        frozen=True,
+        json_schema_extra={
+            "examples": [{"learner": "irlfr", "change": {"drop": "8f14e45f-ceea-467f-a1d2-0c6f1f9b2a11"}}]
+        },
+    )
+
+    learner: LearnerName
+    change: ChangeIn
+
+
 class LearnedOut(BaseModel):
     """What a learner came to."""
 
@@ -60,4 +101,32 @@ class LearnedOut(BaseModel):
     reward: list[list[float]] = Field(description="The learned reward, rows × cols.")
     policy: list[list[float]] = Field(description="Of each square, the chance of up, right, down, left.")
     visitation: list[list[float]] = Field(description="How often the policy is in each square, rows × cols.")
+    compute_ms: float = Field(description="How long the learner itself computed, in milliseconds.")
+
+
+class ReturnsOut(BaseModel):
+    """What a policy earns in the true world."""
+
+    expected_return: float = Field(description="On average, from the start over the world's horizon.")
+    greedy_return: float | None = Field(description="By the best plan for the learned reward; null without a reward.")
+
+
+class DifferenceOut(BaseModel):
+    """What came of a change: the new − the old."""
+
+    policy_change: float = Field(description="The share of steps that are taken otherwise, 0 to 1.")
+    reward_change: float = Field(description="By how much the learned reward differs, on average over the squares.")
+    return_change: float | None = Field(description="Above 0: the change helped.")
+    turned: list[int] = Field(description="The squares whose likeliest action is another.")
+    reward: list[float] = Field(description="The new reward − the old one of each square.")
+
+
+class WhatIfOut(ReturnsOut):
+    """What a learner would have come to."""
+
+    learner: str
+    change: dict[str, Any] = Field(description="The change, as it was told.")
+    result: LearnedOut
+    before: ReturnsOut
+    difference: DifferenceOut
     compute_ms: float = Field(description="How long the learner itself computed, in milliseconds.")

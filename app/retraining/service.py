@@ -7,19 +7,20 @@ from anyio import to_thread
 
 from app.db import Database
 from app.demonstrations import queries as demonstrations
-from app.errors import Unprocessable
+from app.errors import Conflict, Unprocessable
 from app.kit.companion import Asker
+from app.learning import queries as runs
 from app.learning.convert import missing, to_problem
-from app.models import Demonstration
+from app.models import Demonstration, Run
 from app.rankings.content import OUTCOMES
 from app.rankings.queries import Attempt
 from app.rankings.service import check_order
 from app.retraining import computing
-from app.retraining.convert import learned_out
+from app.retraining.convert import changed_out, learned_out
 from app.retraining.refusals import in_words, missing_demonstrations
-from app.retraining.schemas import OrdersIn, PreviewIn
+from app.retraining.schemas import OrdersIn, PreviewIn, WhatIfIn
 from app.worlds.convert import StoredWorld
-from irl_core import LEARNERS, LearningProblem
+from irl_core import LEARNERS, LearningProblem, LearningResult
 
 SHOW_WHAT_AN_ORDER_TEACHES = ("irlfr", "irlr", "irlf", "meirl", "birlfr")
 """The first of them that can learn from it."""
@@ -35,6 +36,30 @@ async def preview(
     learner, problem = await to_thread.run_sync(_previewed, database, world, visitor_id, asked)
     with in_words():
         return learned_out(await line.ask(computing.learn_again, learner, problem))
+
+
+async def what_if(asker: Asker, database: Database, run: Run, asked: WhatIfIn) -> dict[str, Any]:
+    """Learn what a run learned, with one thing changed. Raises Unprocessable and Conflict."""
+    line, change = asker.line("what-if"), asked.change.told
+    problem, before = await to_thread.run_sync(learned_by, database, run, asked.learner)
+    with in_words():
+        return changed_out(await line.ask(computing.learn_changed, problem, before, change), change)
+
+
+def learned_by(database: Database, run: Run, learner: str) -> tuple[LearningProblem, LearningResult]:
+    """Load what a run learned from, and what one of its learners came to. Raises Unprocessable and Conflict."""
+    if learner not in run.learners:
+        message = f"This learner is not one of this run's, which are {', '.join(run.learners)}."
+        raise Unprocessable(message, fields={"learner": message})
+    with database.read() as session:
+        world = runs.world_of(session, run).world
+        rows = runs.demonstrations_of(session, run)
+        stored = runs.results(session, [run.id])[run.id].get(learner)
+    if stored is None:
+        message = f"{LEARNERS[learner].title} has not finished in this run, so there is nothing to compare with."
+        raise Conflict(message, code="no_result")
+    problem = to_problem(world, rows, run.rankings, settings=run.settings, seed=run.seed)
+    return problem, LearningResult.from_json(stored.result)
 
 
 def _previewed(
