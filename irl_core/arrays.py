@@ -9,6 +9,7 @@ Matrix: TypeAlias = np.ndarray[tuple[int, int], np.dtype[np.float64]]
 IntVector: TypeAlias = np.ndarray[tuple[int], np.dtype[np.int64]]
 IntMatrix: TypeAlias = np.ndarray[tuple[int, int], np.dtype[np.int64]]
 BoolVector: TypeAlias = np.ndarray[tuple[int], np.dtype[np.bool_]]
+BoolMatrix: TypeAlias = np.ndarray[tuple[int, int], np.dtype[np.bool_]]
 
 Reward: TypeAlias = Vector
 """What a state pays, shape (S,)."""

@@ -10,19 +10,25 @@ expected visits when π is executed, goals apart,
 
 This is exact retraining, N + 1 runs, no influence function to first order (Koh and Liang 2017): with few demonstrations
 leaving one out is no small change. Nothing says that influences add up.
+
+**What if.** `what_if` changes one thing, `difference` compares what was learned before and after, in the same figures
+but for the sign: there it is the new − the old, so that a return change above 0 says that the change helped. A square
+has *turned* where none of the actions that were likeliest before is likeliest after.
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import numpy as np
 
+from irl_core.arrays import Reward, read_only
 from irl_core.checks import shown
 from irl_core.errors import InvalidRanking, MissingDemonstrations
 from irl_core.evaluation import expected_return, expected_visits
 from irl_core.learners import Learner, LearningProblem, LearningResult, learn
 from irl_core.learners.problem import check_problem
+from irl_core.planning import likeliest
 from irl_core.types import Demonstration, DemonstrationOutcome, Ranking, World
 
 _OTHER: Final[dict[DemonstrationOutcome, DemonstrationOutcome]] = {"success": "failure", "failure": "success"}
@@ -32,7 +38,8 @@ _OTHER: Final[dict[DemonstrationOutcome, DemonstrationOutcome]] = {"success": "f
 class Influence:
     """What one demonstration changed; see the module. Changes are None where nothing can be learned without it.
 
-    `sentence` then says why. `return_change` is None, too, where the problem's model is not a World.
+    `sentence` then says why. `return_change` is None, too, where the problem's model is not a World, and so is
+    `expected_return`, what is earned without it. `turned` are the squares that turn when it is left out.
     """
 
     id: str
@@ -42,6 +49,8 @@ class Influence:
     reward_change: float | None
     return_change: float | None
     sentence: str | None
+    expected_return: float | None = None
+    turned: tuple[int, ...] | None = None
 
     def to_json(self) -> dict[str, Any]:
         """The influence in JSON."""
@@ -53,6 +62,35 @@ class Influence:
             "reward_change": self.reward_change,
             "return_change": self.return_change,
             "sentence": self.sentence,
+            "expected_return": self.expected_return,
+            "turned": None if self.turned is None else list(self.turned),
+        }
+
+
+@dataclass(frozen=True, eq=False)
+class Difference:
+    """What came of a change: the new − the old; see the module. `reward`, shape (S,), is the new reward − the old one.
+
+    `return_change` is None where the problem's model is not a World.
+    """
+
+    policy_change: float
+    reward_change: float
+    return_change: float | None
+    turned: tuple[int, ...]
+    reward: Reward
+
+    def __post_init__(self) -> None:
+        read_only(self.reward)
+
+    def to_json(self) -> dict[str, Any]:
+        """The difference in JSON."""
+        return {
+            "policy_change": self.policy_change,
+            "reward_change": self.reward_change,
+            "return_change": self.return_change,
+            "turned": list(self.turned),
+            "reward": self.reward.tolist(),
         }
 
 
@@ -63,7 +101,35 @@ def influence(learner: str | Learner, problem: LearningProblem) -> tuple[Influen
     """
     check_problem(problem)
     whole = _learned(learner, problem)
-    return tuple(_influence(learner, problem, whole, one) for one in problem.demonstrations)
+    return tuple(
+        influence_of(one.id, problem, whole, lambda rest: _learned(learner, rest)) for one in problem.demonstrations
+    )
+
+
+def influence_of(
+    id_: str, problem: LearningProblem, whole: LearningResult, learned: Callable[[LearningProblem], LearningResult]
+) -> Influence:
+    """The influence of one demonstration, where `whole` is what was learned from all and `learned` learns again.
+
+    Raises InvalidRanking where the problem has no such demonstration.
+    """
+    one = _named(check_problem(problem), id_)
+    try:
+        without = learned(_without(problem, one))
+    except MissingDemonstrations as missing:
+        return Influence(one.id, one.outcome, one.n_steps, None, None, None, missing.message)
+    found = difference(problem, whole, without)
+    return Influence(
+        id=one.id,
+        outcome=one.outcome,
+        n_steps=one.n_steps,
+        policy_change=found.policy_change,
+        reward_change=found.reward_change,
+        return_change=None if found.return_change is None else 0.0 - found.return_change,
+        sentence=None,
+        expected_return=_expected_return(problem, without),
+        turned=found.turned,
+    )
 
 
 def what_if(
@@ -89,21 +155,17 @@ def what_if(
     return _relabelled(problem, _named(problem, relabel))
 
 
-def _influence(
-    learner: str | Learner, problem: LearningProblem, whole: LearningResult, one: Demonstration
-) -> Influence:
-    try:
-        without = _learned(learner, _without(problem, one))
-    except MissingDemonstrations as missing:
-        return Influence(one.id, one.outcome, one.n_steps, None, None, None, missing.message)
-    return Influence(
-        id=one.id,
-        outcome=one.outcome,
-        n_steps=one.n_steps,
-        policy_change=_policy_change(problem, whole, without),
-        reward_change=float(np.abs(whole.reward - without.reward).mean()),
-        return_change=_return_change(problem, whole, without),
-        sentence=None,
+def difference(problem: LearningProblem, before: LearningResult, after: LearningResult) -> Difference:
+    """What differs between two results in the model of a problem; steps are counted where `before` leads."""
+    check_problem(problem)
+    changed: Reward = after.reward - before.reward
+    old, new = (_expected_return(problem, result) for result in (before, after))
+    return Difference(
+        policy_change=_policy_change(problem, before, after),
+        reward_change=float(np.abs(changed).mean()),
+        return_change=None if old is None or new is None else new - old,
+        turned=_turned(problem, before, after),
+        reward=changed,
     )
 
 
@@ -111,16 +173,20 @@ def _learned(learner: str | Learner, problem: LearningProblem) -> LearningResult
     return learn(learner, problem, frame_every=problem.settings.iterations)
 
 
-def _policy_change(problem: LearningProblem, whole: LearningResult, without: LearningResult) -> float:
-    visits = np.where(problem.mdp.terminal, 0.0, expected_visits(problem.mdp, whole.policy))
-    distance = np.abs(whole.policy - without.policy).sum(axis=1) / 2.0
+def _policy_change(problem: LearningProblem, before: LearningResult, after: LearningResult) -> float:
+    visits = np.where(problem.mdp.terminal, 0.0, expected_visits(problem.mdp, before.policy))
+    distance = np.abs(before.policy - after.policy).sum(axis=1) / 2.0
     return float(visits @ distance / visits.sum())
 
 
-def _return_change(problem: LearningProblem, whole: LearningResult, without: LearningResult) -> float | None:
-    if not isinstance(problem.model, World):
-        return None
-    return expected_return(problem.model, whole.policy) - expected_return(problem.model, without.policy)
+def _expected_return(problem: LearningProblem, result: LearningResult) -> float | None:
+    return expected_return(problem.model, result.policy) if isinstance(problem.model, World) else None
+
+
+def _turned(problem: LearningProblem, before: LearningResult, after: LearningResult) -> tuple[int, ...]:
+    """The states of which no action is among the likeliest both before and after."""
+    shared = (likeliest(before.policy) & likeliest(after.policy)).any(axis=1)
+    return tuple(np.flatnonzero(~shared & ~problem.mdp.terminal).tolist())
 
 
 def _without(problem: LearningProblem, gone: Demonstration) -> LearningProblem:

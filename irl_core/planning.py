@@ -38,7 +38,7 @@ import numpy as np
 
 from irl_core import grid
 from irl_core.array_checks import check_policy, check_reward, check_whole
-from irl_core.arrays import BoolVector, Matrix, Policy, Reward, Vector, read_only
+from irl_core.arrays import BoolMatrix, BoolVector, Matrix, Policy, Reward, Vector, read_only
 from irl_core.errors import InvalidModel, InvalidPolicy, InvalidWorld
 from irl_core.mdp import GridMdp, Mdp, SparseMdp, as_mdp
 from irl_core.mdp.radius import spectral_radius_of
@@ -55,6 +55,9 @@ _SMALL: Final = 256
 
 _ARRIVAL_FIRST: Final = 1000.0
 """With slip, a plan that must arrive gives up all it could earn for 0.1 % more chance of arriving."""
+
+_AS_LIKELY: Final = 1e-9
+"""Chances closer than this are the same, however their last digits came out."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,6 +165,12 @@ def check_executable(policy: object, model: World | Mdp) -> Policy | HardPlan:
 def direction_law(world: World | GridMdp, policy: Policy) -> Matrix:
     """The chance of each direction when `policy` (or a one-hot plan) is executed under slip, shape (S, 4)."""
     return _slip_mix(world, policy)
+
+
+def likeliest(policy: Policy) -> BoolMatrix:
+    """Which actions are the likeliest of their state, all of them where several are, shape (S, A)."""
+    likely: BoolMatrix = policy >= policy.max(axis=1, keepdims=True) - _AS_LIKELY
+    return likely
 
 
 def spectral_radius(model: World | Mdp, reward: Reward) -> float:
