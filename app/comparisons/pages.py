@@ -49,6 +49,7 @@ def show_comparison(
     is_own = run.visitor_id == visitor_id
     if run.comparison is None:
         return RedirectResponse(f"/runs/{run.id}" if is_own else f"/runs/{run.id}?key={key}", 303)
+    request.app.state.companion.wake()
     with database.read() as session:
         world = world_of(session, run)
         rows = demonstrations_of(session, run)
