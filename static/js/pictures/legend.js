@@ -26,11 +26,8 @@ export function legendSvg(world, view, { width = 560, theme = "light", size = 12
 /** @param {World} world @param {Partial<View>} view @param {Room} room @returns {Figure} */
 export function legendFigure(world, view, room) {
   const whole = { ...EMPTY_VIEW, ...view };
-  const items = [
-    ...(whole.values ? learnedItems(whole, room) : trueItems(world, room)),
-    ...inkItems(world, whole, room),
-  ];
-  return flow(items, room);
+  const ground = whole.values ? [learnedItem(whole, room)] : trueItems(world, room);
+  return flow([...ground, ...inkItems(world, whole, room)], room);
 }
 
 /** What the world pays. @param {World} world @param {Room} room @returns {Item[]} */
@@ -47,15 +44,20 @@ export function trueItems(world, room) {
   return items;
 }
 
-/** What a learner believes. @param {View} view @param {Room} room @returns {Item[]} */
-function learnedItems(view, room) {
+/** What a learner believes. @param {View} view @param {Room} room @returns {Item} */
+function learnedItem(view, room) {
   const range = view.scale ?? symmetricRange(view.values ?? []);
   const words = `${range[1] > 0 ? "+" : ""}${figureOf(range[1])} learned reward, on a scale of its own`;
-  return [{ before: figureOf(range[0]), sign: diverging(range, room), words }];
+  return { before: figureOf(range[0]), sign: diverging(range, room), words };
+}
+
+/** What several learners believe, whose scales differ. @param {Room} room @returns {Item} */
+export function learnedScales(room) {
+  return { before: "−", sign: diverging([-1, 1], room), words: "+ learned reward, each board on a scale of its own" };
 }
 
 /** Signs above the squares. @param {World} world @param {View} view @param {Room} room @returns {Item[]} */
-function inkItems(world, view, room) {
+export function inkItems(world, view, room) {
   const { theme, size } = room;
   const items = [];
   if (world.start >= 0) items.push({ sign: ring(room), words: "start" });
@@ -113,8 +115,8 @@ function ramp(from, to, colour, { theme, size }) {
   return { ...figure, markup: figure.markup + hatch(figure, 5, theme.inkLight) };
 }
 
-/** @param {[number, number]} range @param {Room} room */
-function diverging(range, { theme, size }) {
+/** A scale about zero. @param {[number, number]} range @param {Pick<Room, "theme" | "size">} room */
+export function diverging(range, { theme, size }) {
   return bar(size * 1.4, (share) => {
     const { arm, depth } = valueDepth(range[0] + (range[1] - range[0]) * share, range);
     return shade(theme.scale, arm, depth);
