@@ -31,7 +31,7 @@ def comparison(world: Json, demonstrations: list[Json], learners: Json, rollouts
     totals = {who: [check_episode(grid, one) for one in episodes] for who, episodes in rollouts.items()}
     assert [one["states"] for one in demonstrations] == rollouts_states(rollouts.get("human", []))
     expected = {name: value[grid.start] for name, value in values.items()} | {"optimal": best[grid.start]}
-    greedy = {name: greedy_return(grid, result["reward"]) for name, result in learners.items()}
+    greedy: dict[str, float | None] = {name: grid.greedy_return(result["reward"]) for name, result in learners.items()}
     greedy["optimal"] = best[grid.start]
     entries = [entry(who, rollouts[who], totals[who], expected.get(who), greedy.get(who)) for who in totals]
     reachable = grid.reachable() - grid.goals
@@ -89,6 +89,26 @@ class Square(Grid):
             ]
         return value
 
+    def greedy_return(self, learned: list[list[float]]) -> float | None:
+        """The true return of the plan that earns most of the learned reward and arrives; None where that is flat.
+
+        Not to arrive costs more than all that can be earned; under slip, 0.1 % more chance of arriving is worth it all.
+        """
+        reward = [value for row in learned for value in row]
+        span = max(reward) - min(reward)
+        if span == 0:
+            return None
+        late = -(self.horizon * span + 1) * (1000 if self.slip else 1)
+        planned = [0.0 if s in self.goals else late for s in self.squares]
+        worth = [0.0 for _ in self.squares]
+        for _ in range(self.horizon):
+            ahead = [reward[s] + planned[s] for s in self.squares]
+            choices = [[self._mean(ahead, s, action) for action in range(4)] for s in self.squares]
+            best = [choices[s].index(max(choices[s])) for s in self.squares]
+            worth = [0.0 if s in self.goals else self._backup(worth, s, best[s]) for s in self.squares]
+            planned = [0.0 if s in self.goals else choices[s][best[s]] for s in self.squares]
+        return worth[self.start]
+
     def direction_law(self, chances: list[float]) -> list[float]:
         """The chance of each direction when actions are chosen with these chances and may slip."""
         return [
@@ -130,10 +150,6 @@ def check_episode(grid: Square, episode: Json) -> float:
     total = math.fsum(grid.rewards[state] for state in states[1:])
     assert math.isclose(episode["total"], total, abs_tol=TOLERANCE)
     return total
-
-
-def greedy_return(grid: Square, reward: list[list[float]]) -> float | None:
-    return None if len({value for row in reward for value in row}) == 1 else grid.greedy_worth(reward)
 
 
 def entry(who: str, episodes: list[Json], totals: list[float], expected: float | None, greedy: float | None) -> Json:
