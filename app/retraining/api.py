@@ -1,18 +1,20 @@
 """Learning again at once, as JSON."""
 
-from typing import Any
+from typing import Annotated, Any
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Query
 
 from app.dependencies import DatabaseFromApp
 from app.learning.dependencies import RunFromPath
 from app.retraining import service
-from app.retraining.dependencies import AskerFromRequest
-from app.retraining.schemas import LearnedOut, PreviewIn, WhatIfIn, WhatIfOut
+from app.retraining.dependencies import AnswersFromApp, AskerFromRequest
+from app.retraining.schemas import InfluenceOut, LearnedOut, PreviewIn, UncertaintyOut, WhatIfIn, WhatIfOut
 from app.visitors import VisitorOrNone
 from app.worlds.dependencies import WorldFromPath
 
 router = APIRouter(prefix="/api/v1", tags=["learning again"])
+
+LearnerFromQuery = Annotated[str, Query(max_length=40, description="The name of a learner of this run.")]
 
 
 @router.post("/worlds/{world_id}/previews", summary="Preview what an order teaches", response_model=LearnedOut)
@@ -42,3 +44,32 @@ async def what_if(
     `no_result` while this learner has not finished in this run.
     """
     return await service.what_if(asker, database, run, asked)
+
+
+@router.get("/runs/{run_id}/influence", summary="Ask which attempt mattered", response_model=InfluenceOut)
+async def show_influence(
+    run: RunFromPath,
+    learner: LearnerFromQuery,
+    asker: AskerFromRequest,
+    answers: AnswersFromApp,
+) -> dict[str, Any]:
+    """Show what each attempt changed in what a learner of a run came to: it learns again without each of them.
+
+    Refused as what-ifs are. What was worked out once is at hand the next time.
+    """
+    return await service.influence(asker, answers, run, learner)
+
+
+@router.get("/runs/{run_id}/uncertainty", summary="Ask how sure a learner is", response_model=UncertaintyOut)
+async def show_uncertainty(
+    run: RunFromPath,
+    learner: LearnerFromQuery,
+    asker: AskerFromRequest,
+    answers: AnswersFromApp,
+) -> dict[str, Any]:
+    """Show how sure a learner of a run can be: by its posterior, or by learning again from draws of the attempts.
+
+    Draws are taken with replacement, successes and failures apart, seeded by the run's seed; there are as many as about
+    a second allows, 30 to 200. Refused as what-ifs are. What was worked out once is at hand the next time.
+    """
+    return await service.uncertainty(asker, answers, run, learner)

@@ -9,6 +9,7 @@ from fastapi import Depends, FastAPI, Request
 from app.kit.companion import Asker, Companion
 from app.learning.supervisor import ONE_THREAD_EACH
 from app.retraining import computing
+from app.retraining.answers import Answers
 from app.visitors import VisitorOrNone
 
 
@@ -18,10 +19,12 @@ async def open_retraining(app: FastAPI) -> AsyncIterator[None]:
     app.state.companion = Companion(
         warm_up=computing.get_ready, expected=computing.EXPECTED, environment=ONE_THREAD_EACH
     )
+    app.state.answers = Answers(app.state.database)
     try:
         yield
     finally:
         app.state.companion.close()
+        await app.state.answers.close()
 
 
 async def get_asker(request: Request, visitor_id: VisitorOrNone) -> Asker:
@@ -31,4 +34,11 @@ async def get_asker(request: Request, visitor_id: VisitorOrNone) -> Asker:
     return Asker(request.app.state.companion, who)
 
 
+async def get_answers(request: Request) -> Answers:
+    """Return what was found out before."""
+    answers: Answers = request.app.state.answers
+    return answers
+
+
 AskerFromRequest = Annotated[Asker, Depends(get_asker)]
+AnswersFromApp = Annotated[Answers, Depends(get_answers)]

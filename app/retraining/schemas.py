@@ -1,6 +1,6 @@
 """What crosses the wire when learning again at once."""
 
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
@@ -130,3 +130,42 @@ class WhatIfOut(ReturnsOut):
     before: ReturnsOut
     difference: DifferenceOut
     compute_ms: float = Field(description="How long the learner itself computed, in milliseconds.")
+
+
+class OneInfluenceOut(BaseModel):
+    """What one attempt changed; everything but `sentence` is null where nothing can be learned without it."""
+
+    id: str
+    outcome: str
+    n_steps: int
+    policy_change: float | None = Field(description="The share of steps that would be taken otherwise without it.")
+    reward_change: float | None = Field(description="By how much the learned reward would differ, on average.")
+    return_change: float | None = Field(description="What it is worth: above 0 where it helped.")
+    expected_return: float | None = Field(description="What the policy earns that is learned without it.")
+    turned: list[int] | None = Field(description="The squares whose likeliest action would be another without it.")
+    sentence: str | None = Field(description="Why nothing can be learned without it.")
+
+
+class InfluenceOut(BaseModel):
+    """What each attempt changed, in the order in which they were played."""
+
+    learner: str
+    influences: list[OneInfluenceOut]
+    compute_ms: float = Field(description="How long was computed, in milliseconds.")
+
+
+class UncertaintyOut(BaseModel):
+    """How sure a learner can be."""
+
+    learner: str
+    method: Literal["posterior", "bootstrap"]
+    level: float = Field(description="The share of draws that lie inside the intervals.")
+    n_draws: int
+    seed: int
+    policy_agreement: list[float] = Field(description="The share of draws that agree on the likeliest action.")
+    reward_low: list[float] = Field(description="The learned reward of each square, the lower end.")
+    reward_high: list[float] = Field(description="The learned reward of each square, the upper end.")
+    return_low: float | None = Field(description="What the policy earns, the lower end, in the world's own units.")
+    return_high: float | None = Field(description="What the policy earns, the upper end.")
+    sentence: str
+    compute_ms: float = Field(description="How long was computed, in milliseconds.")

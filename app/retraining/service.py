@@ -8,7 +8,7 @@ from anyio import to_thread
 from app.db import Database
 from app.demonstrations import queries as demonstrations
 from app.errors import Conflict, Unprocessable
-from app.kit.companion import Asker
+from app.kit.companion import Asker, Line
 from app.learning import queries as runs
 from app.learning.convert import missing, to_problem
 from app.models import Demonstration, Run
@@ -16,7 +16,9 @@ from app.rankings.content import OUTCOMES
 from app.rankings.queries import Attempt
 from app.rankings.service import check_order
 from app.retraining import computing
+from app.retraining.answers import Answers
 from app.retraining.convert import changed_out, learned_out
+from app.retraining.findings import Finding, find_influence, find_uncertainty
 from app.retraining.refusals import in_words, missing_demonstrations
 from app.retraining.schemas import OrdersIn, PreviewIn, WhatIfIn
 from app.worlds.convert import StoredWorld
@@ -44,6 +46,25 @@ async def what_if(asker: Asker, database: Database, run: Run, asked: WhatIfIn) -
     problem, before = await to_thread.run_sync(learned_by, database, run, asked.learner)
     with in_words():
         return changed_out(await line.ask(computing.learn_changed, problem, before, change), change)
+
+
+async def influence(asker: Asker, answers: Answers, run: Run, learner: str) -> dict[str, Any]:
+    """Tell what each demonstration of a run changed in what this learner came to. Raises Unprocessable and Conflict."""
+    return await _found_out(asker, answers, run, learner, find_influence)
+
+
+async def uncertainty(asker: Asker, answers: Answers, run: Run, learner: str) -> dict[str, Any]:
+    """Tell how sure this learner of a run can be. Raises Unprocessable and Conflict."""
+    return await _found_out(asker, answers, run, learner, find_uncertainty)
+
+
+async def _found_out(asker: Asker, answers: Answers, run: Run, learner: str, find: Finding) -> dict[str, Any]:
+    async def work(line: Line) -> dict[str, Any]:
+        problem, whole = await to_thread.run_sync(learned_by, answers.database, run, learner)
+        return await find(line, problem, whole)
+
+    with in_words():
+        return await answers.find(asker, find.__name__, run.id, learner, work=work)
 
 
 def learned_by(database: Database, run: Run, learner: str) -> tuple[LearningProblem, LearningResult]:
