@@ -23,6 +23,8 @@ from app.learning.dependencies import open_learning
 from app.rankings import api as rankings_api
 from app.rankings import pages as rankings_pages
 from app.rankings.sittings import Sittings
+from app.results import api as results_api
+from app.results import pages as results_pages
 from app.retraining import api as retraining_api
 from app.retraining.dependencies import open_retraining
 from app.security import CrossSiteGuard, JsonBodies, SecurityHeaders, UnexpectedErrors
@@ -38,6 +40,7 @@ API_ROUTERS: tuple[APIRouter, ...] = (
     learning_api.router,
     retraining_api.router,
     comparisons_api.router,
+    results_api.router,
 )
 PAGE_ROUTERS: tuple[APIRouter, ...] = (
     worlds_pages.router,  # first: /worlds/new is no /worlds/{world_id}
@@ -45,6 +48,7 @@ PAGE_ROUTERS: tuple[APIRouter, ...] = (
     rankings_pages.router,
     learning_pages.router,
     comparisons_pages.router,
+    results_pages.router,
     docs.router,
     health.router,
 )

@@ -19,7 +19,7 @@ from irl_core.errors import IrlError
 from irl_core.experiment.outcomes import MEASURES, Measure, WorldOutcome, finite_or_none
 from irl_core.experiment.table_one import TableOne, table_one
 from irl_core.learners import LEARNERS
-from irl_core.many_worlds.bootstrap import Estimate, Resamples, estimate
+from irl_core.many_worlds.bootstrap import Estimate, Resamples, draw, estimate
 from irl_core.many_worlds.duels import duels, midranks
 
 
@@ -125,7 +125,7 @@ def _summary_of_kind(kind: str, worlds: Sequence[WorldOutcome], seed: int) -> Ki
         raise IrlError(f"The worlds of {kind} do not all have the same learners.", field="outcomes")
     optima = np.array([one.optimum for one in worlds])
     human, best = (np.array([getattr(one, name) for one in worlds]) for name in ("human_mean", "best_attempt"))
-    resamples = Resamples(optima, seed)
+    resamples = Resamples(optima, draw(len(optima), seed))
     returns = {measure: _returns(worlds, names, measure) for measure in MEASURES}
     shares = {measure: resamples.shares(returns[measure]) for measure in MEASURES}
     places = {measure: midranks(_last_without(returns[measure]), optima) for measure in MEASURES}

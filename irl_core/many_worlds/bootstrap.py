@@ -1,14 +1,14 @@
 """Shares of the optimum over many worlds, with percentile bootstrap intervals.
 
-The share of a column x of returns is Σ_k x_k / Σ_k o_k, o_k the optimum of comparison k: the ratio of means, which a
-world with hardly anything to win does not upset as it would the mean of ratios. A resample draws the n independent
-units (worlds; or people, each with all their worlds) out of n with replacement; all columns see the same resamples, so
-differences between them are paired. Comparisons without a figure (NaN) count on neither side of the line. Intervals run
-from the 2.5th to the 97.5th percentile of 2,000 resamples (Efron & Tibshirani 1993, Sec. 13.3).
+The share of a column x of returns is Σ_k x_k / Σ_k o_k, o_k the optimum of unit k: the ratio of means, which a world
+with hardly anything to win does not upset as it would the mean of ratios. A unit is what is independent: a world,
+or a person, whose x_k and o_k are sums over all their worlds. A resample draws n units out of n with replacement; all
+columns see the same resamples, so differences between them are paired. Units without a figure (NaN) count on neither
+side of the line. Intervals run from the 2.5th to the 97.5th percentile of 2,000 resamples (Efron & Tibshirani 1993,
+Sec. 13.3).
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -40,20 +40,19 @@ class Estimate:
         return f"{value} [{low}, {high}]"
 
 
+def draw(n_units: int, seed: int) -> Matrix:
+    """How often each unit is drawn, shape (1 + resamples, n): row 0, all once, is the sample itself."""
+    rng = np.random.default_rng(np.random.SeedSequence([seed, *b"bootstrap"]))
+    drawn = rng.multinomial(n_units, np.full(n_units, 1.0 / n_units), size=N_RESAMPLES)
+    return np.vstack([np.ones(n_units), drawn])
+
+
 class Resamples:
-    """Comparisons drawn again and again: `counts` says how often each, shape (1 + resamples, n).
+    """The units of one sample, with what was possible in each, drawn again and again as `counts` (of `draw`) says."""
 
-    `units` numbers the unit of each comparison (0, 1, …): those of one unit are drawn together. Without it, each
-    comparison is a unit of its own.
-    """
-
-    def __init__(self, optima: Vector, seed: int, *, units: Sequence[int] | None = None) -> None:
-        of_unit = np.arange(len(optima)) if units is None else np.asarray(units)
-        n_units = int(of_unit.max()) + 1
-        rng = np.random.default_rng(np.random.SeedSequence([seed, *b"bootstrap"]))
-        drawn = rng.multinomial(n_units, np.full(n_units, 1.0 / n_units), size=N_RESAMPLES)
-        self._counts: Matrix = np.vstack([np.ones(n_units), drawn])[:, of_unit]  # row 0 is the sample itself
+    def __init__(self, optima: Vector, counts: Matrix) -> None:
         self._optima = optima
+        self._counts = counts
 
     def shares(self, returns: Matrix) -> Matrix:
         """Share of the optimum of each column of `returns`, (n, L), in the sample and each resample: (1 + N, L)."""

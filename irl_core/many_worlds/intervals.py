@@ -14,13 +14,13 @@ eq. 2.46, without its finite population).
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Final, Literal, TypeAlias
 
 import numpy as np
 
-from irl_core.arrays import Vector
+from irl_core.arrays import Matrix, Vector
 from irl_core.many_worlds.bootstrap import Resamples, estimate
 from irl_core.paired import t_quantile
 
@@ -76,21 +76,25 @@ def _effective_number(shows: Vector, units: Any) -> float:  # noqa: ANN401 - who
     return min(p * (1 - p) / variance, len(shows)) if variance > 0.0 else float(len(shows))
 
 
-def share_of_optimum(returns: Vector, optima: Vector, units: Sequence[int], *, seed: int) -> Share:
-    """Share of the optimum that these returns make up together; `units` numbers the unit of each of them."""
-    possible = float(optima.sum())
-    if len(returns) == 0 or possible <= 0.0:
+def share_of_optimum(
+    returns: Vector, optima: Vector, units: Sequence[int], *, counts: Callable[[int], Matrix]
+) -> Share:
+    """Share of the optimum that these returns make up together; `units` numbers the unit of each of them.
+
+    `counts` draws resamples of so many units (`bootstrap.draw`): whoever asks for several shares need draw only once.
+    """
+    earned, possible = _by_unit(returns, np.asarray(units)), _by_unit(optima, np.asarray(units))
+    n_units, all_possible = len(earned), float(possible.sum())
+    if all_possible <= 0.0:
         return Share(math.nan, math.nan, math.nan, None)
-    value = float(returns.sum()) / possible
-    _, numbered = np.unique(units, return_inverse=True)
-    n_units = int(numbered.max()) + 1
+    value = float(earned.sum()) / all_possible
     if n_units < LEAST_UNITS:
         return Share(value, math.nan, math.nan, None)
     if n_units >= ENOUGH_FOR_BOOTSTRAP:
-        found = estimate(Resamples(optima, seed, units=numbered.tolist()).shares(returns[:, None])[:, 0])
+        found = estimate(Resamples(possible, counts(n_units)).shares(earned[:, None])[:, 0])
         return Share(value, found.low, found.high, "bootstrap")
-    apart = _by_unit(returns - value * optima, numbered)
-    error = math.sqrt(n_units / (n_units - 1) * float(apart @ apart)) / possible
+    apart = earned - value * possible
+    error = math.sqrt(n_units / (n_units - 1) * float(apart @ apart)) / all_possible
     reach = t_quantile(n_units - 1) * error
     return Share(value, value - reach, value + reach, "t")
 

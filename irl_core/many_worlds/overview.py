@@ -8,6 +8,7 @@ those it took part in, a pair in those where both did, and the paper's Table I i
 from collections import Counter
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache, partial
 from itertools import combinations
 
 import numpy as np
@@ -15,6 +16,7 @@ import numpy as np
 from irl_core.arrays import Matrix, Vector
 from irl_core.comparison import HUMAN
 from irl_core.learners import LEARNERS
+from irl_core.many_worlds.bootstrap import draw
 from irl_core.many_worlds.duels import duels, shared_places
 from irl_core.many_worlds.intervals import Proportion, Share, proportion, share_of_optimum
 from irl_core.many_worlds.signs import sign_test
@@ -119,6 +121,7 @@ def _standings(
     names: Sequence[str], scores: Matrix, optima: Vector, units: Sequence[int], *, seed: int
 ) -> tuple[Standing, ...]:
     places = shared_places(scores, optima)
+    counts = cache(partial(draw, seed=seed))
     standings = []
     for column, who in enumerate(names):
         present = np.flatnonzero(~np.isnan(scores[:, column])).tolist()
@@ -129,7 +132,7 @@ def _standings(
                 who=who,
                 n=len(present),
                 places=tuple(proportion([one == place for one in came], theirs) for place in range(1, max(came) + 1)),
-                share=share_of_optimum(scores[present, column], optima[present], theirs, seed=seed),
+                share=share_of_optimum(scores[present, column], optima[present], theirs, counts=counts),
             )
         )
     return tuple(standings)

@@ -25,7 +25,7 @@ from irl_core.experiment import (
 )
 from irl_core.experiment import chunk as chunks
 from irl_core.learners import LearningProblem, learn
-from irl_core.many_worlds.bootstrap import Resamples, estimate
+from irl_core.many_worlds.bootstrap import Resamples, draw, estimate
 from tests.core import naive_experiment as naive
 
 PAPER = ("meirl", "irlr", "irlf", "irlfr")
@@ -174,7 +174,7 @@ def test_table_one_by_hand():
 def test_intervals_agree_with_the_naive_bootstrap():
     generator = np.random.default_rng(3)
     optima, returns = generator.uniform(5.0, 12.0, 60), generator.normal(3.0, 2.0, 60)
-    found = estimate(Resamples(optima, 0).shares(returns[:, None])[:, 0])
+    found = estimate(Resamples(optima, draw(60, 0)).shares(returns[:, None])[:, 0])
     low, high = naive.bootstrap(optima, returns, generator)
     assert found.value == pytest.approx(returns.sum() / optima.sum(), abs=1e-15)
     assert (found.low, found.high) == pytest.approx((low, high), abs=0.012)
@@ -188,7 +188,7 @@ def test_intervals_cover_what_they_should():
     for sample in range(200):
         optima = generator.uniform(5.0, 12.0, 40)
         returns = 0.3 * optima + generator.normal(0.0, 2.0, 40)
-        found = estimate(Resamples(optima, sample).shares(returns[:, None])[:, 0])
+        found = estimate(Resamples(optima, draw(40, sample)).shares(returns[:, None])[:, 0])
         covered += found.low <= 0.3 <= found.high
     assert 0.88 <= covered / 200 <= 0.99
 
