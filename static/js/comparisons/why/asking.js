@@ -16,18 +16,23 @@ import { ApiError } from "#js/lib/api.js";
 
 const GONE = "This run is no longer there: it was deleted, or its link was taken back.";
 
+/** A server that is busy, or just starting, is asked again by itself after such pauses, before anybody is told. */
+const PAUSES_MS = [400, 1_200, 3_000];
+
 /** @template Answer */
 export class Asking {
   #listener;
+  #pausesMs;
   #call = new AbortController();
   /** @type {Map<string, Answer>} */
   #known = new Map();
   /** @type {{ name: string, send: Send } | null} the question that has no answer yet */
   #open = null;
 
-  /** @param {Listener<Answer>} listener */
-  constructor(listener) {
+  /** @param {Listener<Answer>} listener @param {number[]} [pausesMs] */
+  constructor(listener, pausesMs = PAUSES_MS) {
     this.#listener = listener;
+    this.#pausesMs = pausesMs;
   }
 
   /**
@@ -61,7 +66,7 @@ export class Asking {
     this.#call = call;
     this.#listener.wait();
     try {
-      const answer = await send({ signal: call.signal });
+      const answer = await this.#persist(send, call.signal);
       if (call.signal.aborted) return;
       this.#open = null;
       this.#known.set(name, answer);
@@ -71,6 +76,20 @@ export class Asking {
       call.abort(); // over: the same question may be asked again
       this.#listener.fail(troubleOf(error));
     }
+  }
+
+  /** @param {Send} send @param {AbortSignal} signal */
+  async #persist(send, signal) {
+    for (const pause of this.#pausesMs) {
+      try {
+        return await send({ signal });
+      } catch (error) {
+        if (signal.aborted || !(error instanceof ApiError && error.isTemporary)) throw error;
+        await new Promise((resume) => setTimeout(resume, pause));
+        signal.throwIfAborted();
+      }
+    }
+    return send({ signal });
   }
 }
 

@@ -1,7 +1,7 @@
 /**
  * The attempts that a run learned from, in the order that it learned from: the best success first, the worst failure
  * first. What nobody put in order stands as it was played. A run keeps its snapshot, so a place never changes.
- * @import {Attempt, Change} from "#js/comparisons/why/types.js"
+ * @import {Attempt, Change, Influence} from "#js/comparisons/why/types.js"
  * @import {Demonstration, Rankings} from "#js/learning/types.js"
  */
 
@@ -47,6 +47,14 @@ export function canBeCalledOtherwise({ outcome, demonstration }) {
 export function isSameWalk(one, other) {
   const [a, b] = [one.demonstration.states, other.demonstration.states];
   return a.length === b.length && a.every((state, i) => state === b[i]);
+}
+
+/** Who nothing can be learned without comes first, then whose absence changes most. @param {Influence[]} influences */
+export function byInfluence(influences) {
+  const size = (/** @type {Influence} */ one) => one.policy_change ?? Number.POSITIVE_INFINITY;
+  return [...influences].sort(
+    (a, b) => (size(a) === size(b) ? 0 : size(b) - size(a)) || (b.reward_change ?? 0) - (a.reward_change ?? 0),
+  );
 }
 
 /**

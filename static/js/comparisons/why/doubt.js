@@ -7,7 +7,7 @@ import { MarkedBoard } from "#js/comparisons/why/marked-board.js";
 import { Panel } from "#js/comparisons/why/panel.js";
 import { othersMarks, showReturns } from "#js/comparisons/why/return-scale.js";
 import { doubtWords } from "#js/comparisons/why/square-words.js";
-import { doubtful, doubtSentence, intervalSentence } from "#js/comparisons/why/words.js";
+import { doubtful, doubtSentence, isSpread, methodSentence } from "#js/comparisons/why/words.js";
 import { api } from "#js/lib/api.js";
 import { runApi } from "#js/lib/run-address.js";
 
@@ -47,19 +47,22 @@ export class Doubt {
         arrows: belief.policy,
         unknown: doubtful(found.policy_agreement, world),
       },
+      ends: null,
+      caption: `Where ${who.title} is sure of its step`,
+      note: `Grey diagonals: fewer than three draws in four take the same step. ${methodSentence(found)}`,
       label: `The arrows of ${who.title}, hatched where it is not sure of its step.`,
       read: (state) => doubtWords(world, state, belief, found),
     });
     const expected = who.entry?.expected_return ?? null;
     showReturns(this.panel.part("returns"), {
-      interval: [found.return_low, found.return_high],
+      interval: isSpread(found) ? [found.return_low, found.return_high] : undefined,
       marks: [
         ...(expected === null ? [] : [{ who: who.name, at: expected, words: "as it is" }]),
         ...othersMarks(others, whose),
       ],
     });
-    this.panel.part("interval").textContent = intervalSentence(found, { who });
-    this.panel.part("method").textContent = found.sentence;
+    this.panel.part("interval").textContent = found.sentence;
+    this.panel.part("method").textContent = methodSentence(found);
     return doubtSentence(found, { who, world });
   }
 }

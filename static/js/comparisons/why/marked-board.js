@@ -6,9 +6,11 @@
  */
 
 import { nextState, placeOf } from "#js/board/state.js";
-import { significant } from "#js/charts/figures.js";
 import { Marks } from "#js/comparisons/why/marks.js";
+import { whyPicture } from "#js/comparisons/why/picture.js";
 import { announce } from "#js/lib/announce.js";
+import { fileNameOf } from "#js/pictures/files.js";
+import { saveMenu } from "#js/pictures/save-menu.js";
 
 const HINT = "Point at a square to read it.";
 const KEYS = ["ArrowUp", "ArrowRight", "ArrowDown", "ArrowLeft"];
@@ -17,8 +19,10 @@ const KEYS = ["ArrowUp", "ArrowRight", "ArrowDown", "ArrowLeft"];
  * @typedef {object} Shown
  * @property {Partial<View>} view
  * @property {number[]} [framed] squares
- * @property {[low: string, high: string]} [ends] words at the ends of the scale, in place of its figures
+ * @property {[low: string, high: string] | null} ends words at the ends of its scale; null where it has none
  * @property {string} label what the picture says, for whom does not see it
+ * @property {string} caption what the picture is called when it is saved
+ * @property {string} [note] what is to be said below it then
  * @property {(state: number) => string} read one square in words
  */
 
@@ -35,6 +39,7 @@ export class MarkedBoard {
     this.#part("title").textContent = title;
     this.board.world = world;
     this.#marks = new Marks(this.board, world);
+    this.#part("save").append(this.#saveMenu(title));
     this.board.addEventListener("pointermove", (event) => this.#point(event), { signal });
     this.board.addEventListener("pointerdown", (event) => this.#point(event), { signal });
     this.board.addEventListener("pointerleave", () => this.#look(null), { signal });
@@ -46,22 +51,27 @@ export class MarkedBoard {
     return /** @type {IrlBoard} */ (this.element.querySelector("irl-board"));
   }
 
-  get shown() {
-    return this.#shown;
-  }
-
   /** @param {Shown} shown */
   show(shown) {
     this.#shown = shown;
     const { view, framed = [], ends, label } = shown;
-    const largest = view.scale?.[1] ?? 0;
     this.board.view = view;
     this.board.label = `${label} Arrow keys read it square by square.`;
     this.#marks.frame(framed);
-    this.#part("ramp").hidden = largest === 0;
-    this.#part("lowest").textContent = ends?.[0] ?? significant(-largest);
-    this.#part("highest").textContent = ends?.[1] ?? `+${significant(largest)}`;
+    this.#part("ramp").hidden = ends === null;
+    [this.#part("lowest").textContent, this.#part("highest").textContent] = ends ?? ["", ""];
     this.#look(this.board.cursor);
+  }
+
+  /** @param {string} title */
+  #saveMenu(title) {
+    const menu = saveMenu(this.board, { title });
+    menu.source = () => {
+      const { view, framed = [], ends, caption, note = "" } = /** @type {Shown} */ (this.#shown);
+      const svg = () => whyPicture(this.#world, { view, framed, ends }, { title: caption, note });
+      return { name: `irlfr-${fileNameOf(title)}`, title, svg };
+    };
+    return menu;
   }
 
   /** @param {PointerEvent} event */

@@ -4,6 +4,7 @@
  * @import {Attempt, Influence, Influences} from "#js/comparisons/why/types.js"
  */
 import { percent } from "#js/charts/figures.js";
+import { byInfluence } from "#js/comparisons/why/attempts.js";
 import { Marks } from "#js/comparisons/why/marks.js";
 import { Panel } from "#js/comparisons/why/panel.js";
 import { pathBoard } from "#js/comparisons/why/path-board.js";
@@ -85,14 +86,6 @@ export class Mattered {
     part("try").setAttribute("aria-label", `What if it had not been played: ${nameOf(attempt)}`);
     return row;
   }
-}
-
-/** Who nothing can be learned without comes first, then whose absence changes most. @param {Influence[]} influences */
-export function byInfluence(influences) {
-  const size = (/** @type {Influence} */ one) => one.policy_change ?? Number.POSITIVE_INFINITY;
-  return [...influences].sort(
-    (a, b) => (size(a) === size(b) ? 0 : size(b) - size(a)) || (b.reward_change ?? 0) - (a.reward_change ?? 0),
-  );
 }
 
 /** @param {number | null} value @param {number} largest */

@@ -15,6 +15,7 @@ import { differenceWords, squareWords } from "#js/comparisons/why/square-words.j
 import { whatIfSentence } from "#js/comparisons/why/words.js";
 import { untouched } from "#js/learning/material.js";
 import { api } from "#js/lib/api.js";
+import { plural } from "#js/lib/format.js";
 import { runApi } from "#js/lib/run-address.js";
 
 export class WhatIf {
@@ -97,46 +98,42 @@ export class WhatIf {
   #draw(answer) {
     const { learners, attempts, world } = this.#about;
     const who = /** @type {Asked} */ (learners.find(({ name }) => name === answer.learner));
-    this.#drawBoards(answer, who);
-    this.#drawReturns(answer, who);
     const sentence = whatIfSentence(answer, attempts, { ...this.#about, who, world });
-    const isLost = answer.result.outcome === "diverged";
-    return isLost ? `${sentence} ${answer.result.sentence}` : sentence;
+    this.#drawBoards(answer, who, sentence);
+    this.#drawReturns(answer, who);
+    return answer.result.outcome === "diverged" ? `${sentence} ${answer.result.sentence}` : sentence;
   }
 
-  /** Before and after on one scale, so that the same colour is the same reward. @param {Answer} answer @param {Asked} who */
-  #drawBoards({ result, difference, change }, who) {
-    if (!this.#boards) return;
+  /** Before and after on one scale, so that the same colour is the same reward. @param {Answer} answer @param {Asked} who @param {string} sentence */
+  #drawBoards({ result, difference, change }, who, sentence) {
     const { world, attempts } = this.#about;
     const before = { reward: (who.result.reward ?? []).flat(), policy: who.result.policy ?? [] };
     const after = { reward: result.reward.flat(), policy: result.policy };
+    const play = attempts.map(({ demonstration }) => demonstration);
     const scale = symmetricRange([...before.reward, ...after.reward]);
-    const framed = difference.turned;
-    const demonstrations = attempts.map(({ demonstration }) => demonstration);
-    const view = (/** @type {typeof before} */ { reward, policy }, /** @type {typeof demonstrations} */ play) => ({
-      values: reward,
-      arrows: policy,
-      scale,
-      unknown: untouched(world, play, who),
-    });
-    this.#boards.before.show({
-      view: view(before, demonstrations),
-      framed,
+    const shared = { framed: difference.turned, ends: endsOf(scale), note: "Framed: the likeliest step is another." };
+    this.#boards?.before.show({
+      ...shared,
+      view: { values: before.reward, arrows: before.policy, scale, unknown: untouched(world, play, who) },
       label: `The reward ${who.title} learned and its arrows, as they are.`,
+      caption: `What ${who.title} learned`,
       read: (state) => squareWords(world, state, before),
     });
-    this.#boards.after.show({
-      view: view(after, changedPlay(demonstrations, change)),
-      framed,
-      label: `The same after the change; ${framed.length} arrows turned.`,
+    const unknown = untouched(world, changedPlay(play, change), who);
+    this.#boards?.after.show({
+      ...shared,
+      view: { values: after.reward, arrows: after.policy, scale, unknown },
+      label: `The same after the change; ${plural(difference.turned.length, "arrow")} turned.`,
+      caption: sentence,
       read: (state) => squareWords(world, state, after, before),
     });
     const range = symmetricRange(difference.reward);
-    this.#boards.difference.show({
+    this.#boards?.difference.show({
+      ...shared,
       view: { values: difference.reward, scale: range },
-      framed,
-      ends: [`${significant(-range[1])} less`, `${significant(range[1])} more`],
-      label: `How the learned reward of each square changes.`,
+      ends: [`${significant(range[1])} less`, `${significant(range[1])} more`],
+      label: "How the learned reward of each square changes.",
+      caption: `How the learned reward changes. ${sentence}`,
       read: (state) => differenceWords(world, state, before, after),
     });
   }
@@ -154,4 +151,9 @@ export class WhatIf {
       ],
     });
   }
+}
+
+/** @param {[number, number]} scale @returns {[string, string]} */
+function endsOf([low, high]) {
+  return [significant(low), `+${significant(high)}`];
 }

@@ -4,7 +4,7 @@
  * @import {Attempt, Change, Influence, Uncertainty, WhatIf} from "#js/comparisons/why/types.js"
  * @import {World} from "#js/learning/types.js"
  */
-import { figure, listed, percent } from "#js/charts/figures.js";
+import { figure, listed } from "#js/charts/figures.js";
 import { isSameWalk } from "#js/comparisons/why/attempts.js";
 import { plural } from "#js/lib/format.js";
 
@@ -153,27 +153,31 @@ function reasonWords(change, attempts, { who, leavesOut }) {
 }
 
 /**
- * Where the draws disagree, and what that means for what it earns.
+ * Where the draws disagree about the step.
  * @param {Uncertainty} found
  * @param {{ who: Who, world: World }} about
  */
-export function doubtSentence({ policy_agreement }, { who, world }) {
-  const unsure = doubtful(policy_agreement, world).filter(Boolean).length;
-  const all = countArrows(world);
+export function doubtSentence(found, { who, world }) {
+  if (!isSpread(found)) return `All draws came out the same, which says nothing of how sure ${who.title} may be.`;
+  const unsure = doubtful(found.policy_agreement, world).filter(Boolean).length;
   if (unsure === 0)
-    return `${who.title} is sure of its step on every square: three draws in four, or more, agree with it.`;
-  return `On ${unsure} of ${plural(all, "square")} ${who.title} is not sure of its step: fewer than three draws in four take the same.`;
+    return `${who.title} is sure of its step on every square: three draws in four, or more, take the same.`;
+  const squares = `${unsure} of ${plural(countArrows(world), "square")}`;
+  return `On ${squares} ${who.title} is not sure of its step: fewer than three draws in four take the same.`;
 }
 
-/** @param {Uncertainty} found @param {{ who: Who }} about */
-export function intervalSentence({ method, level, return_low, return_high }, { who }) {
-  const range =
-    return_high - return_low < SMALLEST
-      ? `about ${figure(return_high)}`
-      : `between ${figure(return_low)} and ${figure(return_high)}`;
+/** How that was found out. @param {Uncertainty} found */
+export function methodSentence({ method, n_draws, seed }) {
   if (method === "posterior")
-    return `In ${percent(level)} of its draws of the reward, what ${who.title} does earns ${range}.`;
-  return `Had the attempts come out a little otherwise, ${who.title} would earn ${range} (${percent(level)} of the draws).`;
+    return `Found out from ${plural(n_draws, "draw")} of what it holds possible after the attempts (its posterior).`;
+  return `Found out by learning again ${plural(n_draws, "time")} from attempts drawn anew, successes and failures apart, some more than once and some not at all (bootstrap, seed ${seed}).`;
+}
+
+/** False where no draw differed from another: one attempt of a kind, or all alike. @param {Uncertainty} found */
+export function isSpread({ policy_agreement, reward_low, reward_high }) {
+  return (
+    policy_agreement.some((share) => share < 1) || reward_low.some((low, state) => low < (reward_high[state] ?? 0))
+  );
 }
 
 /** Squares to hatch: those with arrows where too few draws agree. Shape (S,). @param {number[]} agreement @param {Pick<World, "goals" | "walls">} world */
