@@ -50,6 +50,9 @@ class Settings(BaseSettings):
     show_agreement: bool = Field(
         default=True, description="Participants see, once they have confirmed an order, how it agrees with the totals."
     )
+    show_policy: bool = Field(
+        default=True, description="Participants see, while they order, what would be learned from the order so far."
+    )
     rank_by: Annotated[tuple[Way, ...], NoDecode] = Field(
         default=WAYS,
         description="How attempts may be put in order, `pairwise` or `lists,pairwise`; the first is shown first.",

@@ -37,6 +37,7 @@ class RankPage:
 @router.get("/worlds/{world_id}/rank", response_model=None)
 def show_rank(request: Request, world: WorldFromPath, database: DatabaseFromApp, visitor_id: VisitorOrNone) -> Response:
     """Show both lists: in the order confirmed last, or in their start order."""
+    request.app.state.companion.wake()
     with database.read() as session:
         rows = all_in_world(session, visitor_id, world.id)
         newest = queries.newest(session, visitor_id, world.id)
@@ -58,6 +59,7 @@ def _options(settings: Settings, world: StoredWorld) -> dict[str, Any]:
     return {
         "show_totals": settings.show_totals,
         "show_agreement": settings.show_agreement,
+        "show_policy": settings.show_policy,
         "ways": [world.rank_by] if world.rank_by else settings.rank_by,
     }
 

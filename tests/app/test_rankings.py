@@ -125,16 +125,22 @@ def options_of(client, world):
 
 
 def test_the_page_says_which_ways_there_are_and_what_is_shown(client, world):
-    assert options_of(client, world) == {"show_totals": True, "show_agreement": True, "ways": list(WAYS)}
+    assert options_of(client, world) == {
+        "show_totals": True,
+        "show_agreement": True,
+        "show_policy": True,
+        "ways": list(WAYS),
+    }
     fixed = make_world(client, rank_by="segments")
     assert options_of(client, fixed)["ways"] == ["segments"]
 
 
 def test_a_study_chooses_the_ways_and_whether_agreement_is_shown(settings):
-    told = make_settings(settings.data_dir, rank_by=("pairwise", "lists"), show_agreement=False)
+    told = make_settings(settings.data_dir, rank_by=("pairwise", "lists"), show_agreement=False, show_policy=False)
     with open_client(create_app(told)) as client:
         options = options_of(client, make_world(client))
-    assert options == {"show_totals": True, "show_agreement": False, "ways": ["pairwise", "lists"]}
+    shown = {"show_totals": True, "show_agreement": False, "show_policy": False}
+    assert options == shown | {"ways": ["pairwise", "lists"]}
 
 
 def test_ways_come_from_the_environment_as_a_list_of_words(monkeypatch):

@@ -6,6 +6,7 @@ import { isTaken } from "#js/lib/keys.js";
 import { displayRanks, groupOf, swap, weights } from "#js/rankings/order.js";
 import { PairView } from "#js/rankings/pair-view.js";
 import { questionOf, saidWords } from "#js/rankings/pair-words.js";
+import { PolicySwap } from "#js/rankings/policy-swap.js";
 import { cardWords, weightText } from "#js/rankings/sentences.js";
 
 /** @typedef {import("#js/rankings/order.js").Order} Order */
@@ -20,16 +21,18 @@ export class CompareDialog {
   #parts;
   #dialog = /** @type {HTMLDialogElement} */ (byId("compare"));
   #view;
+  #policy;
   /** @type {{outcome: Outcome, a: string, b: string} | null} */
   #pair = null;
 
-  /** @param {import("#js/rankings/rank.js").Parts & {lists: import("#js/rankings/lists.js").RankLists}} parts */
+  /** @param {import("#js/rankings/rank.js").Parts & {lists: import("#js/rankings/lists.js").RankLists, policy: import("#js/rankings/policy-panel.js").PolicyPanel | null}} parts */
   constructor(parts) {
     this.#parts = parts;
     const onPlay = (/** @type {string[]} */ ids, /** @type {Means} */ means) => {
       for (const id of ids) parts.sitting.do({ type: "watch", means, id });
     };
     this.#view = new PairView(this.#dialog, { world: parts.world, onPlay });
+    this.#policy = parts.policy ? new PolicySwap(byId("compare-swap-policy"), parts.world, parts.policy) : null;
   }
 
   /** @param {AbortSignal} signal */
@@ -101,6 +104,7 @@ export class CompareDialog {
   #onClose() {
     this.#view.stop();
     this.#preview(false);
+    this.#policy?.wonder(null);
     this.#pair = null;
   }
 
@@ -147,6 +151,7 @@ export class CompareDialog {
     byId("compare-swap-none").hidden = said !== "alike";
     byId("compare-swap").setAttribute("aria-disabled", String(said === "alike"));
     byId("compare-swap-list").replaceChildren(...(said === "alike" ? [] : this.#changes()));
+    this.#policy?.wonder(said === "alike" ? null : { ...this.#parts.sitting.orders, [pair.outcome]: this.#swapped });
   }
 
   /** Every card whose θ would be another, as it is and as it would be. */

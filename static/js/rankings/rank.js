@@ -10,6 +10,7 @@ import { Confirmation } from "#js/rankings/confirmation.js";
 import { RankLists } from "#js/rankings/lists.js";
 import { MagnitudePanel } from "#js/rankings/magnitude-panel.js";
 import { PairwisePanel } from "#js/rankings/pairwise-panel.js";
+import { PolicyPanel } from "#js/rankings/policy-panel.js";
 import { SegmentsPanel } from "#js/rankings/segments-panel.js";
 import { Sitting } from "#js/rankings/sitting.js";
 
@@ -37,6 +38,8 @@ class RankPage {
   #segments;
   #pairwise;
   #comparing;
+  /** Null where a study hides it: then nothing is asked. @type {PolicyPanel | null} */
+  #policy;
 
   /** @param {Parts} parts */
   constructor(parts) {
@@ -55,7 +58,8 @@ class RankPage {
     this.#magnitude = new MagnitudePanel({ ...parts, lists: this.#lists });
     this.#segments = new SegmentsPanel(parts);
     this.#pairwise = new PairwisePanel(parts);
-    this.#comparing = new CompareDialog({ ...parts, lists: this.#lists });
+    this.#policy = parts.data.options.show_policy ? new PolicyPanel(parts) : null;
+    this.#comparing = new CompareDialog({ ...parts, lists: this.#lists, policy: this.#policy });
   }
 
   start() {
@@ -66,6 +70,7 @@ class RankPage {
     this.#segments.start(signal);
     this.#pairwise.start(signal);
     this.#comparing.start(signal);
+    this.#policy?.start(signal);
     this.#root.addEventListener("click", (event) => this.#onClick(event), { signal });
     this.#root.addEventListener("change", (event) => this.#onChange(event), { signal });
     document.addEventListener("keydown", (event) => this.#onKey(event), { signal });
