@@ -11,7 +11,7 @@ import signal
 import sys
 import threading
 import traceback
-from typing import Any, BinaryIO
+from typing import BinaryIO
 
 NICENESS = 5
 """It gives way to the web server, and the workers (10) to it: somebody is waiting for the answer."""
@@ -49,17 +49,14 @@ def _listen(calls: queue.SimpleQueue[bytes]) -> None:
 def _answer(call: bytes) -> bytes:
     """Do what is asked; an error that nobody expects is told in the log, and by its name alone to the parent."""
     expected: tuple[type[Exception], ...] = ()
-    answer: tuple[bool, Any]
     try:
         function, arguments, expected = pickle.loads(call)  # noqa: S301 - from our parent
-        answer = True, function(*arguments)
+        return pickle.dumps((True, function(*arguments)))
     except Exception as error:  # noqa: BLE001 - whatever it is, the next call is answered
         if isinstance(error, expected):
-            answer = False, error
-        else:
-            traceback.print_exc()
-            answer = False, type(error).__name__
-    return pickle.dumps(answer)
+            return pickle.dumps((False, error))
+        traceback.print_exc()
+        return pickle.dumps((False, type(error).__name__))
 
 
 if __name__ == "__main__":
