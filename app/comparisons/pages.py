@@ -7,6 +7,7 @@ from fastapi import APIRouter, Request
 from starlette.responses import RedirectResponse, Response
 
 from app.comparisons import queries
+from app.comparisons.citations import citations_of
 from app.demonstrations.pages import demonstrations_json
 from app.dependencies import DatabaseFromApp
 from app.learning.convert import describe_learners, describe_settings, snapshot_rankings, to_out
@@ -28,7 +29,7 @@ class ComparePage:
     data: dict[str, Any] = field(
         metadata={
             "help": "The page data: world, demonstrations, rankings, run, is_own, key, learners, comparison, rollouts, "
-            "settings."
+            "settings, citations."
         }
     )
 
@@ -66,5 +67,6 @@ def show_comparison(
         "comparison": queries.comparison_of(run),
         "rollouts": queries.rollouts_of(run),
         "settings": describe_settings(),
+        "citations": citations_of(run.learners, run.settings, versions=run.versions),
     }
     return render(request, "comparisons/compare.html", ComparePage(path=path, world=data["world"], data=data))
