@@ -19,6 +19,7 @@ from app.demonstrations import pages as demonstrations_pages
 from app.error_handlers import add_error_handlers, apologise
 from app.learning import api as learning_api
 from app.learning import pages as learning_pages
+from app.learning import streams_api as learning_streams_api
 from app.learning.dependencies import open_learning
 from app.rankings import api as rankings_api
 from app.rankings import pages as rankings_pages
@@ -38,6 +39,7 @@ API_ROUTERS: tuple[APIRouter, ...] = (
     demonstrations_api.router,
     rankings_api.router,
     learning_api.router,
+    learning_streams_api.router,
     retraining_api.router,
     comparisons_api.router,
     results_api.router,

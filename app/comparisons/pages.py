@@ -12,7 +12,7 @@ from app.demonstrations.pages import demonstrations_json
 from app.dependencies import DatabaseFromApp
 from app.learning.convert import describe_learners, describe_settings, snapshot_rankings, to_out
 from app.learning.dependencies import RunFromPath, ShareKey
-from app.learning.queries import demonstrations_of, latest_done_run, results, world_of
+from app.learning.queries import demonstrations_of, latest_done_run, world_of
 from app.pages import PathState, path_state, render
 from app.visitors import VisitorOrNone
 from app.worlds.dependencies import WorldFromPath
@@ -54,13 +54,13 @@ def show_comparison(
     with database.read() as session:
         world = world_of(session, run)
         rows = demonstrations_of(session, run)
-        stored = results(session, [run.id])[run.id]
+        shown = to_out(session, run, is_own=is_own)
         path = path_state(session, visitor_id, run.world_id, "compare")
     data: dict[str, Any] = {
         "world": world.to_json(),
         "demonstrations": demonstrations_json(rows),
         "rankings": snapshot_rankings(run),
-        "run": to_out(run, stored, is_own=is_own).model_dump(mode="json"),
+        "run": shown.model_dump(mode="json"),
         "is_own": is_own,
         "key": None if is_own else key,
         "learners": describe_learners(run.learners),

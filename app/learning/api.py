@@ -1,17 +1,14 @@
-"""Runs as JSON and as a stream."""
+"""Runs as JSON; their streams are in `streams_api.py`."""
 
-from typing import Annotated
-
-from anyio import to_thread
-from fastapi import APIRouter, Header, Response
-from fastapi.responses import PlainTextResponse, StreamingResponse
+from fastapi import APIRouter
+from fastapi.responses import PlainTextResponse
 from sqlalchemy.orm import Session
 
 from app.db import Database
 from app.dependencies import DatabaseFromApp
 from app.learning import queries, service, sharing
-from app.learning.convert import to_out
-from app.learning.dependencies import JobsFromApp, OwnRunFromPath, RunFromPath, WatcherFromApp
+from app.learning.convert import runs_out, to_out
+from app.learning.dependencies import JobsFromApp, OwnRunFromPath, RunFromPath
 from app.learning.export import demonstration_file
 from app.learning.schemas import RunIn, RunOut, ShareOut
 from app.models import Run, RunShare
@@ -19,8 +16,6 @@ from app.visitors import Visitor, VisitorOrNone, remember
 from app.worlds.dependencies import WorldFromPath
 
 router = APIRouter(prefix="/api/v1", tags=["runs"])
-
-STREAM_HEADERS = {"Cache-Control": "no-cache, no-transform", "X-Accel-Buffering": "no"}
 
 
 @router.post("/worlds/{world_id}/runs", status_code=202, summary="Ask for a run")
@@ -33,7 +28,9 @@ def ask(
         remember(session, visitor_id)
         return service.learn_later(session, jobs, world=world, visitor_id=visitor_id, asked=asked)
 
-    return to_out(database.write(store), {})
+    run = database.write(store)
+    jobs.wake()
+    return shown(database, run, is_own=True)
 
 
 @router.get("/worlds/{world_id}/runs", summary="List your runs of a world")
@@ -41,33 +38,19 @@ def list_runs(world: WorldFromPath, database: DatabaseFromApp, visitor_id: Visit
     """List your runs of this world, oldest first."""
     with database.read() as session:
         runs = queries.runs_of(session, visitor_id, world.id)
-        results = queries.results(session, [run.id for run in runs])
-    return [to_out(run, results[run.id]) for run in runs]
+        return runs_out(session, runs)
 
 
 @router.get("/runs/{run_id}", summary="Show a run")
 def show(run: RunFromPath, database: DatabaseFromApp, visitor_id: VisitorOrNone) -> RunOut:
     """Show a run: its status, and what each learner has come to."""
-    with database.read() as session:
-        return to_out(run, queries.results(session, [run.id])[run.id], is_own=run.visitor_id == visitor_id)
+    return shown(database, run, is_own=run.visitor_id == visitor_id)
 
 
-@router.get("/runs/{run_id}/events", summary="Follow a run", response_class=StreamingResponse)
-async def follow(
-    run: RunFromPath,
-    database: DatabaseFromApp,
-    watcher: WatcherFromApp,
-    last_event_id: Annotated[int, Header(ge=0, le=2**62, description="Resume after this event.")] = 0,
-) -> Response:
-    """Stream a run as Server-Sent Events: `frame`, `learner`, and last `done` or `failed`; `id` counts from 1.
-
-    A browser that already has the last event gets 204, which ends its reconnecting.
-    """
-    if run.status in queries.ENDED and last_event_id >= await to_thread.run_sync(newest_event, database, run.id):
-        return Response(status_code=204)
-    return StreamingResponse(
-        watcher.stream(run.id, last_event_id), media_type="text/event-stream", headers=STREAM_HEADERS
-    )
+@router.delete("/runs/{run_id}", status_code=204, summary="Delete a run")
+def delete(run: OwnRunFromPath, database: DatabaseFromApp) -> None:
+    """Delete a run with its results and links; one that has not ended is cancelled by it. Attempts and orders stay."""
+    database.write(lambda session: service.delete(session, run.id))
 
 
 @router.post("/runs/{run_id}/cancellation", status_code=202, summary="Cancel a run")
@@ -75,8 +58,7 @@ def cancel(run: OwnRunFromPath, database: DatabaseFromApp) -> RunOut:
     """Cancel a run that has not ended."""
     database.write(lambda session: service.cancel(session, run.id))
     with database.read() as session:
-        results = queries.results(session, [run.id])
-        return to_out(session.get_one(Run, run.id), results[run.id])
+        return to_out(session, session.get_one(Run, run.id))
 
 
 @router.post("/runs/{run_id}/shares", status_code=201, summary="Share a run")
@@ -109,13 +91,13 @@ def export(run: RunFromPath, database: DatabaseFromApp) -> PlainTextResponse:
     )
 
 
+def shown(database: Database, run: Run, *, is_own: bool) -> RunOut:
+    """Show a run as it stands."""
+    with database.read() as session:
+        return to_out(session, run, is_own=is_own)
+
+
 def share_out(share: RunShare) -> ShareOut:
     """Show a link."""
     address = f"/runs/{share.run_id}/comparison?key={share.key}"
     return ShareOut(key=share.key, address=address, created_at=share.created_at)
-
-
-def newest_event(database: Database, run_id: str) -> int:
-    """Return the number of a run's newest event, 0 if it has none."""
-    with database.read() as session:
-        return queries.last_event_numbers(session, [run_id]).get(run_id, 0)

@@ -3,7 +3,10 @@
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Final, Protocol, runtime_checkable
 
+from sqlalchemy.orm import Session
+
 from app.demonstrations.convert import demonstration_from_row
+from app.learning import queries
 from app.learning.schemas import RunOut
 from app.models import Demonstration, Run, RunResult
 from irl_core import DEFAULT_LEARNERS, LEARNERS, Learner, LearningProblem, Ranking, Settings, World, rank_weights
@@ -91,22 +94,50 @@ def describe_settings() -> list[dict[str, Any]]:
     return [one | {"whole": isinstance(one["default"], int)} for one in Settings.describe()]
 
 
-def to_out(run: Run, results: Mapping[str, RunResult], *, is_own: bool = True) -> RunOut:
-    """Show a run with what its learners have come to."""
-    finished = {name: results[name].result for name in run.learners if name in results}
+def to_out(session: Session, run: Run, *, is_own: bool = True) -> RunOut:
+    """Show a run as it stands, with what its learners have come to."""
+    (shown,) = runs_out(session, [run], is_own=is_own)
+    return shown
+
+
+def runs_out(session: Session, runs: Sequence[Run], *, is_own: bool = True) -> list[RunOut]:
+    """Show runs as they stand."""
+    run_ids = [run.id for run in runs]
+    standings = queries.standings(session, run_ids)
+    results = queries.results(session, run_ids)
+    computed = queries.computed_ms(session, run_ids)
+    return [_out(run, standings.get(run.id), results[run.id], computed[run.id], is_own=is_own) for run in runs]
+
+
+def _out(
+    run: Run,
+    standing: queries.Standing | None,
+    results: Mapping[str, RunResult],
+    computed_ms: Mapping[str, float],
+    *,
+    is_own: bool,
+) -> RunOut:
     return RunOut(
         id=run.id,
         world_id=run.world_id,
         is_own=is_own,
         status=run.status,  # type: ignore[arg-type]  # the table checks the word
         reason=run.reason,
+        ahead=standing.ahead if standing else None,
+        worker=standing.worker if standing else "ready",
         seed=run.seed,
         settings=run.settings,
-        learners={name: finished.get(name, {"outcome": None}) for name in run.learners},
+        learners={name: _learner_out(results.get(name), computed_ms.get(name)) for name in run.learners},
         n_demonstrations=len(run.demonstrations),
-        n_left_out=max((result["n_left_out"] for result in finished.values()), default=0),
+        n_left_out=max((row.result["n_left_out"] for row in results.values()), default=0),
         versions=run.versions,
         created_at=run.created_at,
         started_at=run.started_at,
         finished_at=run.finished_at,
     )
+
+
+def _learner_out(result: RunResult | None, computed_ms: float | None) -> dict[str, Any]:
+    """What a learner has come to; from its first step on with the time that it has computed."""
+    found = {"outcome": None} if result is None else result.result
+    return found if computed_ms is None else found | {"compute_ms": computed_ms}

@@ -12,9 +12,10 @@ from app.config import Settings
 from app.db import Database
 from app.dependencies import DatabaseFromApp
 from app.errors import NotFound
-from app.learning.jobs import Jobs
+from app.kit.bell import Bell
+from app.learning.jobs import WEB_BELL, Jobs
 from app.learning.sharing import opens
-from app.learning.stream import Watcher
+from app.learning.watcher import Watcher
 from app.models import Run
 from app.visitors import VisitorOrNone
 
@@ -22,13 +23,15 @@ from app.visitors import VisitorOrNone
 @asynccontextmanager
 async def open_learning(app: FastAPI, settings: Settings, database: Database) -> AsyncIterator[None]:
     """Open the queue and the watcher for the life of the app."""
-    app.state.jobs = Jobs(settings.database_url)
-    app.state.watcher = Watcher(database)
+    bell = Bell(settings.data_dir, WEB_BELL)
+    app.state.jobs = Jobs(settings)
+    app.state.watcher = Watcher(database, bell)
     try:
         yield
     finally:
         await app.state.watcher.close()
         app.state.jobs.close()
+        bell.close()
 
 
 async def get_jobs(request: Request) -> Jobs:
@@ -42,6 +45,9 @@ async def get_watcher(request: Request) -> Watcher:
     watcher: Watcher = request.app.state.watcher
     return watcher
 
+
+MOST_RUNS = 20
+"""As many as one stream follows."""
 
 ShareKey = Annotated[
     str | None,
@@ -70,9 +76,21 @@ def find_run(session: Session, run_id: str, visitor_id: str | None, key: str | N
     raise NotFound(message)
 
 
+def get_runs(
+    run: Annotated[list[UUID], Query(min_length=1, max_length=MOST_RUNS, description="The runs; may repeat.")],
+    database: DatabaseFromApp,
+    visitor_id: VisitorOrNone,
+    key: ShareKey = None,
+) -> list[Run]:
+    """Load the runs that the address names, each once; one that this visitor may not see is not found."""
+    with database.read() as session:
+        return [find_run(session, run_id, visitor_id, key) for run_id in dict.fromkeys(map(str, run))]
+
+
 JobsFromApp = Annotated[Jobs, Depends(get_jobs)]
 WatcherFromApp = Annotated[Watcher, Depends(get_watcher)]
 RunFromPath = Annotated[Run, Depends(get_run)]
 """A run to look at: its owner's, or opened by the key of a shared link."""
+RunsFromQuery = Annotated[list[Run], Depends(get_runs)]
 OwnRunFromPath = Annotated[Run, Depends(get_own_run)]
 """A run to change: its owner's alone."""

@@ -7,7 +7,9 @@ other, and asking twice is asking once. Jobs of one visitor follow each other, s
 from dbos import DBOSClient, DBOSPortableJSONSerializer
 from sqlalchemy.orm import Session
 
+from app.config import Settings
 from app.db import WORKER_PATIENCE_MS, make_engine
+from app.kit.bell import Ringer
 from app.models import Run
 
 APPLICATION = "irlfr"
@@ -15,13 +17,18 @@ APPLICATION_VERSION = "1"
 """Constant, so that a worker of the next release takes up what the last one left."""
 QUEUE = "runs"
 WORKFLOW = "learn"
+WEB_BELL = "web"
+"""Rings when a worker has stored something that a stream may wait for."""
+WORKER_BELLS = "worker-*"
+"""Ring when there is a run to take up; a worker by another name finds it at its next look."""
 
 
 class Jobs:
     """The web's side of the queue."""
 
-    def __init__(self, database_url: str) -> None:
-        self._engine = make_engine(database_url, "jobs", patience_ms=WORKER_PATIENCE_MS)
+    def __init__(self, settings: Settings) -> None:
+        self._engine = make_engine(settings.database_url, "jobs", patience_ms=WORKER_PATIENCE_MS)
+        self._ringer = Ringer(settings.data_dir)
         self._client = DBOSClient(
             system_database_engine=self._engine,
             serializer=DBOSPortableJSONSerializer(),
@@ -43,7 +50,12 @@ class Jobs:
             run.id,
         )
 
+    def wake(self) -> None:
+        """Let idle workers look at the queue at once: what was asked for is stored."""
+        self._ringer.ring(WORKER_BELLS)
+
     def close(self) -> None:
         """Let go of the connections."""
+        self._ringer.close()
         self._client.destroy()
         self._engine.dispose()

@@ -97,4 +97,4 @@ def _with_choice(
 
 
 def _run_json(session: Session, run: Run, *, is_own: bool) -> dict[str, Any]:
-    return to_out(run, queries.results(session, [run.id])[run.id], is_own=is_own).model_dump(mode="json")
+    return to_out(session, run, is_own=is_own).model_dump(mode="json")

@@ -1,18 +1,39 @@
 """What can be asked about runs."""
 
 from collections.abc import Collection, Sequence
-from datetime import timedelta
+from dataclasses import dataclass
+from datetime import datetime, timedelta
+from typing import Any, Literal, TypeAlias
 
 from sqlalchemy import func, select
 from sqlalchemy.orm import Session
 
 from app.kit.clock import now
-from app.models import Demonstration, Run, RunEvent, RunResult, Worker
+from app.models import Demonstration, Run, RunCheckpoint, RunEvent, RunResult, Worker
 from app.worlds.convert import StoredWorld
 from app.worlds.queries import find_world
 
 WORKER_IS_SILENT_AFTER = timedelta(seconds=15)
 ENDED = ("done", "failed", "cancelled")
+
+WorkerState: TypeAlias = Literal["ready", "warming", "none"]
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """How a run stands."""
+
+    status: str
+    reason: str | None
+    ahead: int | None
+    """How many runs come before it; None unless it is queued."""
+    worker: WorkerState
+    """Whether anybody is there to take it up."""
+
+    @property
+    def has_ended(self) -> bool:
+        """Nothing more will happen to it."""
+        return self.status in ENDED
 
 
 def world_of(session: Session, run: Run) -> StoredWorld:
@@ -65,14 +86,24 @@ def results(session: Session, run_ids: Collection[str]) -> dict[str, dict[str, R
     return found
 
 
-def events_after(session: Session, run_id: str, number: int, *, limit: int) -> Sequence[RunEvent]:
-    """List the events of a run that follow `number`, at most `limit` of them."""
-    return session.scalars(
-        select(RunEvent)
-        .where(RunEvent.run_id == run_id, RunEvent.number > number)
-        .order_by(RunEvent.number)
-        .limit(limit)
-    ).all()
+def computed_ms(session: Session, run_ids: Collection[str]) -> dict[str, dict[str, float]]:
+    """Collect how long the learners of these runs have computed, in milliseconds: run id → learner → time."""
+    found: dict[str, dict[str, float]] = {run_id: {} for run_id in run_ids}
+    for table in (RunCheckpoint, RunResult):
+        columns = (table.run_id, table.learner, table.compute_ms)
+        for run_id, learner, compute_ms in session.execute(select(*columns).where(table.run_id.in_(run_ids))):
+            found[run_id][learner] = compute_ms
+    return found
+
+
+def events_after(
+    session: Session, run_id: str, number: int, *, limit: int, kind: str | None = None
+) -> Sequence[RunEvent]:
+    """List the events of a run (or those of one kind) that follow `number`, at most `limit` of them."""
+    following = [RunEvent.run_id == run_id, RunEvent.number > number]
+    if kind is not None:
+        following.append(RunEvent.kind == kind)
+    return session.scalars(select(RunEvent).where(*following).order_by(RunEvent.number).limit(limit)).all()
 
 
 def last_event_numbers(session: Session, run_ids: Collection[str]) -> dict[str, int]:
@@ -83,6 +114,54 @@ def last_event_numbers(session: Session, run_ids: Collection[str]) -> dict[str, 
     return {run_id: number for run_id, number in rows}  # noqa: C416 - rows are no pairs to the type checker
 
 
+def latest_frames(session: Session, run_ids: Collection[str]) -> Sequence[RunEvent]:
+    """List the newest frame of each learner of these runs."""
+    learner = func.json_extract(RunEvent.data, "$.learner")
+    newest = (
+        select(RunEvent.run_id, func.max(RunEvent.number).label("number"))
+        .where(RunEvent.run_id.in_(run_ids), RunEvent.kind == "frame")
+        .group_by(RunEvent.run_id, learner)
+        .subquery()
+    )
+    is_newest = (RunEvent.run_id == newest.c.run_id) & (RunEvent.number == newest.c.number)
+    return session.scalars(select(RunEvent).join(newest, is_newest).order_by(RunEvent.run_id, RunEvent.number)).all()
+
+
+def standings(session: Session, run_ids: Collection[str]) -> dict[str, Standing]:
+    """Tell how each of these runs stands that exists."""
+    columns = (Run.id, Run.status, Run.reason, Run.visitor_id, Run.created_at)
+    rows = session.execute(select(*columns).where(Run.id.in_(run_ids))).all()
+    is_waiting = any(row.status not in ENDED for row in rows)
+    worker = worker_state(session) if is_waiting else "ready"
+    return {
+        row.id: Standing(row.status, row.reason, _ahead(session, row) if row.status == "queued" else None, worker)
+        for row in rows
+    }
+
+
+def _ahead(session: Session, run: Any) -> int:  # noqa: ANN401 - a row of `standings`
+    """How many queued runs come before this one: one's own older ones, and as many of each other visitor's."""
+    older = (Run.created_at < run.created_at) | ((Run.created_at == run.created_at) & (Run.id < run.id))
+    counted = session.execute(
+        select(Run.visitor_id, func.count()).where(Run.status == "queued", older).group_by(Run.visitor_id)
+    )
+    n_older = {visitor_id: n for visitor_id, n in counted}  # noqa: C416 - rows are no pairs to the type checker
+    n_own = n_older.pop(run.visitor_id, 0)
+    return n_own + sum(min(n, n_own + 1) for n in n_older.values())
+
+
+def worker_state(session: Session) -> WorkerState:
+    """Tell whether a worker takes runs, or only gets ready to, or none is there."""
+    alive = [one.ready_at for one in session.scalars(select(Worker)) if _is_lately(one.seen_at)]
+    if not alive:
+        return "none"
+    return "warming" if all(ready_at is None for ready_at in alive) else "ready"
+
+
 def worker_is_alive(session: Session) -> bool:
     """Tell whether a worker has shown a sign of life lately. (One from the future: the clock was set back)."""
-    return any(abs(now() - seen_at) < WORKER_IS_SILENT_AFTER for seen_at in session.scalars(select(Worker.seen_at)))
+    return any(map(_is_lately, session.scalars(select(Worker.seen_at))))
+
+
+def _is_lately(seen_at: datetime) -> bool:
+    return abs(now() - seen_at) < WORKER_IS_SILENT_AFTER

@@ -47,10 +47,15 @@ class RunOut(BaseModel):
     is_own: bool = Field(description="You asked for it; otherwise you see it by a link that was shared.")
     status: Literal["queued", "running", "done", "failed", "cancelled"]
     reason: str | None = Field(description="Why it failed, in words.")
+    ahead: int | None = Field(description="How many runs come before it; null unless it is queued.")
+    worker: Literal["ready", "warming", "none"] = Field(
+        description="Whether a worker takes runs, still compiles what it needs, or is missing."
+    )
     seed: int
     settings: dict[str, Any]
     learners: dict[str, dict[str, Any]] = Field(
-        description="By name: outcome, sentence, iterations, gap, log_likelihood, reward[rows][cols], "
+        description="By name: compute_ms (its own time so far), outcome, sentence, iterations, gap, log_likelihood, "
+        "reward[rows][cols], "
         "policy[rows·cols][4] (the one that is executed), visitation[rows][cols], weights of the features (null where "
         "they are the reward), posterior (null but for Bayesian learners); outcome is null until then."
     )
@@ -60,6 +65,17 @@ class RunOut(BaseModel):
     created_at: datetime
     started_at: datetime | None
     finished_at: datetime | None
+
+
+class FramesOut(BaseModel):
+    """What the learners of a run have shown of themselves so far."""
+
+    run_id: str
+    frames: list[dict[str, Any]] = Field(
+        description="As in the stream, with `number`: learner, iteration, iterations, compute_ms, gap, log_likelihood, "
+        "reward[S], policy[S][4], visitation[S]."
+    )
+    last: int = Field(description="Ask again with `after` = this for what has come since.")
 
 
 class ShareOut(BaseModel):

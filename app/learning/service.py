@@ -1,4 +1,4 @@
-"""What people can do with runs: ask for one, cancel one."""
+"""What people can do with runs: ask for one, cancel one, delete one."""
 
 import platform
 import secrets
@@ -6,6 +6,7 @@ import uuid
 from collections.abc import Sequence
 from importlib.metadata import version
 
+from sqlalchemy import delete as remove
 from sqlalchemy import update
 from sqlalchemy.orm import Session
 
@@ -73,6 +74,11 @@ def cancel(session: Session, run_id: str) -> None:
         message = "This run has already ended, so it can no longer be cancelled."
         raise Conflict(message, code="run_already_ended")
     events.append(session, run_id, "failed", {"status": "cancelled", "message": CANCELLED})
+
+
+def delete(session: Session, run_id: str) -> None:
+    """Delete a run with all that hangs on it. A worker in the midst of it notices at its next step."""
+    session.execute(remove(Run).where(Run.id == run_id))
 
 
 def current_rankings(

@@ -1,106 +1,194 @@
-"""A run's events as Server-Sent Events.
+"""Runs as Server-Sent Events: one run with each of its events, or all runs of a page by one connection.
 
-Workers append events to the table, numbered 1, 2, … in each run; the number is the event's id, so a browser that comes
-back says `Last-Event-ID` and is sent what follows. One task of this process looks for news of all watched runs at once
-and wakes the streams concerned; no stream holds a database connection while it waits.
+The number of an event in its run is its id, so a browser that comes back says `Last-Event-ID` and is sent what follows.
+The stream of a page thins frames out by time: of what came since it last sent, each learner's newest frame, and its
+first. Its id is the vector of the numbers of all its runs. One that begins, or is far behind, gets a snapshot instead.
 """
 
 import asyncio
-import contextlib
-from collections import Counter
-from collections.abc import AsyncIterator, Sequence
+import json
+import time
+from collections.abc import AsyncIterator, Iterable, Iterator, Sequence
+from contextlib import suppress
+from typing import Any
 
-from anyio import to_thread
 from fastapi.sse import KEEPALIVE_COMMENT, format_sse_event
 
-from app.db import Database
-from app.learning import queries
-from app.models import RunEvent
+from app.learning.queries import Standing
+from app.learning.watcher import Feed, Happening, Watcher
 
-LOOK_EVERY_S = 0.05
 KEEP_ALIVE_AFTER_S = 15.0
-BATCH = 50
-"""How many events are read at once: bounds what a stream that is far behind holds in memory."""
-LAST_KINDS = ("done", "failed")
+PACE_S = 1 / 28
+"""Between two batches of a stream: with its first frame, a learner is seen at most 30 times a second."""
+PACE_S_PER_STREAM = 0.001
+"""Many streams are each sent a little less, so that the server answers everybody else as fast as without them."""
+FAR_BEHIND = 200
+"""Events, from which on a snapshot serves a page better than what it missed."""
+DELETED = "This run was deleted, with everything it had learned."
 
 
-class Watcher:
-    """Knows which runs are watched, and wakes their streams when something new is stored."""
+async def every_event(watcher: Watcher, run_id: str, after: int) -> AsyncIterator[bytes]:
+    """Send each event of a run that follows number `after`, up to and with its last one."""
+    async with watcher.watching([run_id]) as (feed,):
+        if after > feed.newest:
+            after = 0  # not a number of ours: waiting for the next one could be waiting for ever
+        while True:
+            news = watcher.news
+            for one in await _following(watcher, feed, after):
+                yield format_sse_event(data_str=one.data, event=one.kind, id=str(one.number))
+                after = one.number
+                if one.is_last:
+                    return
+            if feed.standing is None:
+                yield _message("failed", {"status": "deleted", "message": DELETED}, str(after))
+                return
+            if after == feed.newest and not await _comes(news):
+                yield KEEPALIVE_COMMENT
 
-    def __init__(self, database: Database) -> None:
-        self._database = database
-        self._watched: Counter[str] = Counter()
-        self._newest: dict[str, int] = {}
-        self._news = asyncio.Condition()
-        self._task: asyncio.Task[None] | None = None
+
+async def many_runs(
+    watcher: Watcher, run_ids: Sequence[str], *, with_frames: Iterable[str], seen: Sequence[int] | None
+) -> AsyncIterator[bytes]:
+    """Send what happens in these runs until all have ended; `seen` are the numbers that the browser has already."""
+    async with watcher.watching(run_ids) as feeds:
+        page = _Page(watcher, feeds, frozenset(with_frames), seen)
+        while True:
+            news, began = watcher.news, time.monotonic()
+            if batch := await page.next_batch():
+                yield b"".join(batch)
+            if page.has_ended:
+                return
+            if not page.is_behind and not await _comes(news):
+                yield KEEPALIVE_COMMENT
+            pace = max(PACE_S, PACE_S_PER_STREAM * watcher.n_streams)
+            await asyncio.sleep(max(0.0, began + pace - time.monotonic()))
+
+
+class _Page:
+    """What one stream has sent of its runs, and what comes next."""
+
+    def __init__(
+        self, watcher: Watcher, feeds: Sequence[Feed], with_frames: frozenset[str], seen: Sequence[int] | None
+    ) -> None:
+        self._watcher = watcher
+        numbers: Sequence[int | None] = [None] * len(feeds) if seen is None else seen
+        self._runs = [
+            _OfRun(feed, number, with_frames=feed.run_id in with_frames)
+            for feed, number in zip(feeds, numbers, strict=True)
+        ]
 
     @property
-    def n_streams(self) -> int:
-        """How many streams are open."""
-        return self._watched.total()
+    def has_ended(self) -> bool:
+        """Whether everything was told of every run."""
+        return all(one.has_ended for one in self._runs)
 
-    async def stream(self, run_id: str, after: int) -> AsyncIterator[bytes]:
-        """Send the events of a run that follow number `after`, up to and with its last one."""
-        self._watched[run_id] += 1
-        self._wake_up()
-        try:
-            if after > await to_thread.run_sync(self._newest_number, run_id):
-                after = 0  # not a number of ours: waiting for the next one could be waiting for ever
-            while True:
-                events = await to_thread.run_sync(self._read, run_id, after)
-                for event in events:
-                    yield format_sse_event(data_str=event.data, event=event.kind, id=str(event.number))
-                    after = event.number
-                    if event.kind in LAST_KINDS:
-                        return
-                if not events and not await self._wait(run_id, after):
-                    yield KEEPALIVE_COMMENT
-        finally:
-            self._watched[run_id] -= 1
-            if not self._watched[run_id]:
-                del self._watched[run_id]
-                self._newest.pop(run_id, None)
+    @property
+    def is_behind(self) -> bool:
+        """Whether more could be sent at once."""
+        return any(one.is_behind for one in self._runs)
 
-    async def close(self) -> None:
-        """Stop looking."""
-        if self._task is not None:
-            self._task.cancel()
-            with contextlib.suppress(asyncio.CancelledError):
-                await self._task
+    async def next_batch(self) -> list[bytes]:
+        """What is to be sent now, each message with the vector of all numbers as its id."""
+        batch = []
+        for one in self._runs:
+            if one.has_ended:
+                continue
+            pending = [] if one.needs_snapshot else await _following(self._watcher, one.feed, one.number)
+            for kind, data in one.messages(pending):
+                batch.append(_message(kind, data, self._id))
+        return batch
 
-    def _read(self, run_id: str, after: int) -> Sequence[RunEvent]:
-        with self._database.read() as session:
-            return queries.events_after(session, run_id, after, limit=BATCH)
+    @property
+    def _id(self) -> str:
+        return ".".join(str(one.number or 0) for one in self._runs)
 
-    async def _wait(self, run_id: str, after: int) -> bool:
-        """Wait for an event after number `after`; False when none has come for the time of a keep-alive."""
-        async with self._news:
-            try:
-                await asyncio.wait_for(
-                    self._news.wait_for(lambda: self._newest.get(run_id, 0) > after), KEEP_ALIVE_AFTER_S
-                )
-            except TimeoutError:
-                return False
-        return True
 
-    def _wake_up(self) -> None:
-        if self._task is None or self._task.done():
-            self._task = asyncio.create_task(self._look())
+class _OfRun:
+    """What one stream has sent of one run."""
 
-    async def _look(self) -> None:
-        """Look for news as long as anybody watches."""
-        while self._watched:
-            with contextlib.suppress(Exception):  # a busy database is no reason to stop looking
-                newest = await to_thread.run_sync(self._last_numbers, list(self._watched))
-                if newest != self._newest:
-                    async with self._news:
-                        self._newest = newest
-                        self._news.notify_all()
-            await asyncio.sleep(LOOK_EVERY_S)
+    def __init__(self, feed: Feed, number: int | None, *, with_frames: bool) -> None:
+        self.feed = feed
+        self.with_frames = with_frames
+        self.has_ended = False
+        self._seen = number
+        self._waiting: object = None
+        self._begun: set[str] = set()
 
-    def _newest_number(self, run_id: str) -> int:
-        return self._last_numbers([run_id]).get(run_id, 0)
+    @property
+    def number(self) -> int:
+        """The number of the last event that was told of, or left out."""
+        return self._seen or 0
 
-    def _last_numbers(self, run_ids: list[str]) -> dict[str, int]:
-        with self._database.read() as session:
-            return queries.last_event_numbers(session, run_ids)
+    @property
+    def needs_snapshot(self) -> bool:
+        """Whether to begin with how things stand: nothing is known, something else is, or too much was missed."""
+        return self._seen is None or self._seen > self.feed.newest or self.feed.newest - self._seen > FAR_BEHIND
+
+    @property
+    def is_behind(self) -> bool:
+        """Whether more is known than was told."""
+        return not self.has_ended and self.number < self.feed.newest
+
+    def messages(self, pending: Sequence[Happening]) -> Iterator[tuple[str, dict[str, Any]]]:
+        """Tell what is to be told now; each message is of the moment at which `number` is that of its event."""
+        standing = self.feed.standing
+        if standing is None:
+            self.has_ended = True
+            yield "failed", self._told({"status": "deleted", "message": DELETED})
+            return
+        if self.needs_snapshot:
+            yield self._snapshot(standing)
+        for one in self._thinned(pending):
+            self._seen = one.number
+            yield self._message(one)
+        if pending:
+            self._seen = pending[-1].number
+        waiting = (standing.ahead, standing.worker)
+        if waiting != self._waiting and not (standing.has_ended or self.has_ended):
+            self._waiting = waiting
+            yield "queue", self._told({"ahead": standing.ahead, "worker": standing.worker})
+
+    def _snapshot(self, standing: Standing) -> tuple[str, dict[str, Any]]:
+        # The event that ends a run follows its snapshot, with a number of its own.
+        self._seen = self.feed.newest - (1 if standing.has_ended and self.feed.newest else 0)
+        self._begun.update(self.feed.latest)
+        self._waiting = (standing.ahead, standing.worker)
+        latest = {name: frame.told | {"number": frame.number} for name, frame in self.feed.latest.items()}
+        how = {name: getattr(standing, name) for name in ("status", "reason", "ahead", "worker")}
+        return "snapshot", self._told(how | {"number": self._seen, "latest": latest})
+
+    def _thinned(self, pending: Sequence[Happening]) -> Iterator[Happening]:
+        """Leave out the frames that a newer one of the same learner follows; the first of each stays."""
+        newest = {one.learner: one.number for one in pending if one.kind == "frame"}
+        for one in pending:
+            is_first = one.kind == "frame" and one.learner not in self._begun
+            if one.kind != "frame" or one.number == newest[one.learner] or is_first:
+                self._begun.add(str(one.learner))
+                yield one
+
+    def _message(self, one: Happening) -> tuple[str, dict[str, Any]]:
+        self.has_ended = one.is_last
+        if one.kind == "frame" and not self.with_frames:
+            kept = {name: one.told[name] for name in ("learner", "iteration", "iterations")}
+            return "progress", self._told({"number": one.number} | kept)
+        return one.kind, self._told({"number": one.number} | one.told)
+
+    def _told(self, data: dict[str, Any]) -> dict[str, Any]:
+        return {"run_id": self.feed.run_id} | data
+
+
+async def _following(watcher: Watcher, feed: Feed, number: int) -> Sequence[Happening]:
+    """The events of a run after `number`, as many as are at hand."""
+    kept = feed.after(number)
+    return await watcher.events_after(feed.run_id, number) if kept is None else kept
+
+
+async def _comes(news: asyncio.Event) -> bool:
+    """Wait for news; False when none has come for the time of a keep-alive."""
+    with suppress(TimeoutError):
+        return await asyncio.wait_for(news.wait(), KEEP_ALIVE_AFTER_S)
+    return False
+
+
+def _message(kind: str, data: dict[str, Any], number: str) -> bytes:
+    return format_sse_event(data_str=json.dumps(data, separators=(",", ":")), event=kind, id=number)

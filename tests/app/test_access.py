@@ -50,6 +50,9 @@ OWNER_ONLY = {
     ("GET", "/api/v1/runs/{run_id}"): (404, 200, 404),
     ("GET", "/api/v1/runs/{run_id}/events"): (404, 204, 404),
     ("POST", "/api/v1/runs/{run_id}/cancellation"): (404, 409, 404),
+    ("GET", "/api/v1/runs/{run_id}/frames"): (404, 200, 404),
+    ("GET", "/api/v1/events"): (404, 204, 404),
+    ("DELETE", "/api/v1/runs/{run_id}"): (404, 204, 404),
     ("POST", "/api/v1/runs/{run_id}/shares"): (404, 201, 404),
     ("GET", "/api/v1/runs/{run_id}/shares"): (404, 200, 404),
     ("DELETE", "/api/v1/runs/{run_id}/shares/{key}"): (404, 404, 404),
@@ -90,6 +93,8 @@ def test_who_may(client, other_client, method, path):
     ids = {"world_id": world["id"], "demonstration_id": played["id"], "run_id": RUN_ID, "sitting_id": sitting.id}
     url = path.format(**ids, outcome="success", key="unknown")
     body = body_for(method, path, world, played)
+    if path == "/api/v1/events":
+        url += f"?run={RUN_ID}"
     answers = [
         asking.request(method, url, follow_redirects=False, headers={"Last-Event-ID": "9"}, **body)
         for asking in (open_client(client.app), client, other_client)

@@ -7,7 +7,7 @@ from tests.app.test_learning import ask, database, played  # noqa: F401 - fixtur
 from tests.app.test_pages import island
 from tests.factories import make_demonstration
 
-SEEN_BY_KEY = ("", "/events", "/comparison", "/rollouts", "/demonstrations.jsonl")
+SEEN_BY_KEY = ("", "/events", "/frames", "/comparison", "/rollouts", "/demonstrations.jsonl")
 
 
 @pytest.fixture
