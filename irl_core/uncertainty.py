@@ -232,14 +232,10 @@ def _in_words(problem: LearningProblem, learner: str, n_draws: int, low: float |
         return "There is one attempt of a kind, so nothing can be drawn anew: how sure this is cannot be said."
     if low is None or high is None:
         return f"Learned again from {n_draws} draws of the same attempts."
-    if high - low < 0.005:
-        return (
-            f"Learned again from {n_draws} draws of the same attempts, {_title(learner)} always earns {_figure(low)}."
-        )
-    return (
-        f"Learned again from {n_draws} draws of the same attempts, {_title(learner)} earns between {_figure(low)} and"
-        f" {_figure(high)} in {LEVEL:.0%} of them."
-    )
+    again = f"Learned again from {n_draws} draws of the same attempts, {_title(learner)} earns"
+    if _figure(low) == _figure(high):
+        return f"{again} {_figure(low)} in at least {LEVEL:.0%} of them."
+    return f"{again} between {_figure(low)} and {_figure(high)} in {LEVEL:.0%} of them."
 
 
 def _believed(learner: str, level: float, low: float | None, high: float | None) -> str:

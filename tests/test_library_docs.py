@@ -27,6 +27,7 @@ SUBMODULES = (
     "mdp.toy_text",
     "preferences",
     "simulators",
+    "uncertainty",
 )
 HELPERS_OF_TYPES = {"HasStates", "HasTable"}  # what type checkers are told of an argument
 

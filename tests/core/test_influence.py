@@ -16,7 +16,7 @@ from irl_core import (
     learn,
     simulate,
 )
-from irl_core.influence import influence, what_if
+from irl_core.influence import difference, influence, influence_of, what_if
 from tests.core.examples import LEFT, make_problem
 from tests.core.test_baselines import small_problem
 
@@ -139,3 +139,42 @@ class TestWhatIf:
             what_if(with_lost, swap=("a", "b"))
         with pytest.raises(InvalidRanking, match="never reached a goal"):
             what_if(with_lost, relabel="e")
+
+
+class TestDifference:
+    def test_it_is_the_new_less_the_old(self):
+        problem = small_problem(iterations=30)
+        before, after = learn("irlfr", problem), learn("irlfr", what_if(problem, drop="a"))
+        found = difference(problem, before, after)
+        assert found.reward.tolist() == [new - old for new, old in zip(after.reward, before.reward, strict=True)]
+        assert found.reward_change == pytest.approx(sum(map(abs, found.reward)) / 9)
+        earned = [expected_return(problem.world, result.policy) for result in (before, after)]
+        assert found.return_change == earned[1] - earned[0]
+        json.dumps(found.to_json(), allow_nan=False)
+
+    def test_a_square_has_turned_where_no_action_is_likeliest_before_and_after(self):
+        problem = small_problem(iterations=30)
+        before, after = learn("irlfr", problem), learn("irlfr", what_if(problem, relabel="d"))
+        likeliest = [
+            [{a for a in range(4) if row[a] >= max(row) - 1e-9} for row in result.policy.tolist()]
+            for result in (before, after)
+        ]
+        turned = [state for state in range(8) if not likeliest[0][state] & likeliest[1][state]]
+        assert turned
+        assert difference(problem, before, after).turned == tuple(turned)
+
+    def test_of_two_results_alike_nothing_differs(self):
+        problem = small_problem(iterations=5)
+        result = learn("meirl", problem)
+        found = difference(problem, result, result)
+        assert (found.policy_change, found.reward_change, found.return_change, found.turned) == (0.0, 0.0, 0.0, ())
+
+    def test_an_influence_says_what_is_earned_without_and_which_squares_turn(self):
+        problem = small_problem(iterations=30)
+        whole = learn("irlfr", problem)
+        for one in influence("irlfr", problem):
+            without = learn("irlfr", what_if(problem, drop=one.id))
+            assert one.expected_return == expected_return(problem.world, without.policy)
+            assert one.turned == difference(problem, whole, without).turned
+        with pytest.raises(InvalidRanking, match="no demonstration 'z'"):
+            influence_of("z", problem, whole, lambda rest: learn("irlfr", rest))
