@@ -1,0 +1,55 @@
+/**
+ * The page of results: the server writes every figure, this draws the charts and the boards. An entry script.
+ * @import {ResultsPageData, Standing} from "#js/results/types.js"
+ */
+import "#js/elements/irl-board.js";
+import { markerPath, walker } from "#js/board/colours.js";
+import { byId } from "#js/lib/dom.js";
+import { pageData } from "#js/lib/page-data.js";
+import { saveMenu } from "#js/pictures/save-menu.js";
+import { drawPlaces, drawShares } from "#js/results/charts.js";
+
+const NARROWEST = 280;
+
+/** @type {ResultsPageData} */
+const { results, worlds } = pageData();
+drawMarkers();
+drawBoards();
+if (results.standings.length > 0) {
+  mount("places-chart", drawPlaces, "places-title");
+  mount("shares-chart", drawShares, "shares-title");
+}
+
+function drawMarkers() {
+  for (const path of document.querySelectorAll("svg.marker[data-who] > path")) {
+    const who = path.parentElement?.getAttribute("data-who") ?? "";
+    path.setAttribute("d", markerPath(walker(who).shape));
+  }
+}
+
+function drawBoards() {
+  for (const element of document.querySelectorAll("irl-board[data-world]")) {
+    const board = /** @type {import("#js/elements/irl-board.js").IrlBoard} */ (element);
+    board.world = worlds[board.dataset.world ?? ""] ?? null;
+  }
+}
+
+/**
+ * Draw a chart as wide as its box is, and again whenever that changes.
+ * @param {string} id @param {(standings: Standing[], width: number) => SVGElement | Element} draw @param {string} titleId
+ */
+function mount(id, draw, titleId) {
+  const box = byId(id);
+  let drawn = 0;
+  const paint = () => {
+    const width = Math.max(NARROWEST, Math.floor(box.clientWidth));
+    if (width === drawn) return;
+    drawn = width;
+    box.replaceChildren(draw(results.standings, width));
+  };
+  paint();
+  new ResizeObserver(paint).observe(box);
+  const title = byId(titleId);
+  const about = { title: title.textContent ?? "", note: document.querySelector("h1")?.textContent ?? "" };
+  title.after(saveMenu(() => box.querySelector("svg"), about));
+}
