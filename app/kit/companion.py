@@ -27,7 +27,7 @@ LIMIT_S = 10.0
 """The longest that a call may compute."""
 WARM_UP_LIMIT_S = 600.0
 """The longest that warming up may take: on a fresh installation everything has to be compiled."""
-PATIENCE_S = 15.0
+PATIENCE_S = 30.0
 """The longest that somebody waits for an answer, the wait for their turn included."""
 CLOSE_WITHIN_S = 2.0
 

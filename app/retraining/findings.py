@@ -4,7 +4,7 @@ Every time is a call of its own, so that others have their turns in between.
 """
 
 import math
-from collections.abc import Awaitable, Callable, Sequence
+from collections.abc import Awaitable, Callable
 from typing import Final, TypeAlias
 
 from app.kit.companion import Line
@@ -58,9 +58,9 @@ async def take_draws(line: Line, problem: LearningProblem, whole: LearningResult
     return draws, spent_ms
 
 
-def affordable(draw_ms: float, numbers: Sequence[int] = N_DRAWS) -> int:
+def affordable(draw_ms: float) -> int:
     """Choose the number of draws by what one of them takes."""
-    return next((n for n in numbers if n * draw_ms <= BUDGET_MS), numbers[-1])
+    return next((n for n in N_DRAWS if n * draw_ms <= BUDGET_MS), N_DRAWS[-1])
 
 
 def check_pace(spent_ms: float, *, n_done: int, n_all: int) -> None:

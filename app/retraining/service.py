@@ -1,6 +1,6 @@
 """What people can have learned again at once, without a run. Nothing of it is stored."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from anyio import to_thread
@@ -43,6 +43,7 @@ async def preview(
 async def what_if(asker: Asker, database: Database, run: Run, asked: WhatIfIn) -> dict[str, Any]:
     """Learn what a run learned, with one thing changed. Raises Unprocessable and Conflict."""
     line, change = asker.line("what-if"), asked.change.told
+    _check_attempts(run, change)
     problem, before = await to_thread.run_sync(learned_by, database, run, asked.learner)
     with in_words():
         return changed_out(await line.ask(computing.learn_changed, problem, before, change), change)
@@ -65,6 +66,14 @@ async def _found_out(asker: Asker, answers: Answers, run: Run, learner: str, fin
 
     with in_words():
         return await answers.find(asker, find.__name__, run.id, learner, work=work)
+
+
+def _check_attempts(run: Run, change: Mapping[str, Any]) -> None:
+    """Raise Unprocessable where a change speaks of an attempt that the run did not learn from."""
+    told = {one for said in change.values() for one in ([said] if isinstance(said, str) else said)}
+    if not told <= set(run.demonstrations):
+        message = "There is an attempt in this change that is not one of this run's."
+        raise Unprocessable(message, fields={"change": message})
 
 
 def learned_by(database: Database, run: Run, learner: str) -> tuple[LearningProblem, LearningResult]:
