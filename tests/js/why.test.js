@@ -3,7 +3,7 @@ import test from "node:test";
 import { readShown, writeShown } from "#js/comparisons/why/address.js";
 import { Asking } from "#js/comparisons/why/asking.js";
 import { attemptsOf, canBeCalledOtherwise, changedPlay, partnersOf } from "#js/comparisons/why/attempts.js";
-import { framePath } from "#js/comparisons/why/marks.js";
+import { squarePath } from "#js/comparisons/why/marks.js";
 import { ApiError } from "#js/lib/api.js";
 
 const played = (id, outcome, more = {}) => ({ id, outcome, ending: "goal", discarded: false, states: [0, 1], ...more });
@@ -169,6 +169,6 @@ test("a question that another took the place of may be asked again", async () =>
   assert.deepEqual(heard, ["wait", "Something newer was asked for. true"]);
 });
 
-test("frames lie inside their squares, row by row", () => {
-  assert.equal(framePath({ rows: 2, cols: 3 }, [0, 4]), "M0.08,0.08h0.84v0.84h-0.84zM1.08,1.08h0.84v0.84h-0.84z");
+test("marks lie inside their squares, row by row", () => {
+  assert.equal(squarePath({ cols: 3 }, [0, 4], 0.25), "M0.25,0.25h0.5v0.5h-0.5zM1.25,1.25h0.5v0.5h-0.5z");
 });

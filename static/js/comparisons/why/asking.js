@@ -97,6 +97,7 @@ export class Asking {
 export function troubleOf(error) {
   if (!(error instanceof ApiError)) throw error;
   if (error.status === 404) return { sentence: GONE, mayRetry: false };
-  // A conflict is another question of the same visitor, or a run that is not done: both pass.
-  return { sentence: error.message, mayRetry: error.isTemporary || error.status === 409 };
+  // A conflict (another question of the same visitor) passes, and what took too long may be quicker when less is going on.
+  const mayPass = error.isTemporary || error.status === 409 || error.code === "too_slow";
+  return { sentence: error.message, mayRetry: mayPass };
 }

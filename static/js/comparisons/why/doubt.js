@@ -41,15 +41,17 @@ export class Doubt {
     const { learners, world, others, whose } = this.#about;
     const who = /** @type {Asked} */ (learners.find(({ name }) => name === found.learner));
     const belief = { reward: (who.result.reward ?? []).flat(), policy: who.result.policy ?? [] };
+    const unsure = doubtful(found.policy_agreement, world);
     this.#board.show({
+      dimmed: unsure.flatMap((isUnsure, state) => (isUnsure ? [state] : [])),
       view: {
         values: new Array(belief.reward.length).fill(0), // plain ground: the hatch is what there is to see
         arrows: belief.policy,
-        unknown: doubtful(found.policy_agreement, world),
+        unknown: unsure,
       },
       ends: null,
       caption: `Where ${who.title} is sure of its step`,
-      note: `Grey diagonals: fewer than three draws in four take the same step. ${methodSentence(found)}`,
+      note: `Grey, hatched: fewer than three draws in four take the same step. ${methodSentence(found)}`,
       label: `The arrows of ${who.title}, hatched where it is not sure of its step.`,
       read: (state) => doubtWords(world, state, belief, found),
     });

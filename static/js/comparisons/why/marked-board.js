@@ -19,6 +19,7 @@ const KEYS = ["ArrowUp", "ArrowRight", "ArrowDown", "ArrowLeft"];
  * @typedef {object} Shown
  * @property {Partial<View>} view
  * @property {number[]} [framed] squares
+ * @property {number[]} [dimmed] squares, in place of any that are framed
  * @property {[low: string, high: string] | null} ends words at the ends of its scale; null where it has none
  * @property {string} label what the picture says, for whom does not see it
  * @property {string} caption what the picture is called when it is saved
@@ -54,10 +55,11 @@ export class MarkedBoard {
   /** @param {Shown} shown */
   show(shown) {
     this.#shown = shown;
-    const { view, framed = [], ends, label } = shown;
+    const { view, framed = [], dimmed, ends, label } = shown;
     this.board.view = view;
     this.board.label = `${label} Arrow keys read it square by square.`;
-    this.#marks.frame(framed);
+    if (dimmed) this.#marks.dim(dimmed);
+    else this.#marks.frame(framed);
     this.#part("ramp").hidden = ends === null;
     [this.#part("lowest").textContent, this.#part("highest").textContent] = ends ?? ["", ""];
     this.#look(this.board.cursor);
@@ -67,8 +69,8 @@ export class MarkedBoard {
   #saveMenu(title) {
     const menu = saveMenu(this.board, { title });
     menu.source = () => {
-      const { view, framed = [], ends, caption, note = "" } = /** @type {Shown} */ (this.#shown);
-      const svg = () => whyPicture(this.#world, { view, framed, ends }, { title: caption, note });
+      const { view, framed = [], dimmed = [], ends, caption, note = "" } = /** @type {Shown} */ (this.#shown);
+      const svg = () => whyPicture(this.#world, { view, framed, dimmed, ends }, { title: caption, note });
       return { name: `irlfr-${fileNameOf(title)}`, title, svg };
     };
     return menu;

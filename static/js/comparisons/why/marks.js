@@ -1,9 +1,8 @@
 /**
- * Frames around some squares of a board. Two inks, so that one of them stands out from any square.
+ * Some squares of a board marked: framed in two inks, of which one stands out from any square, or dimmed.
  * @import {IrlBoard} from "#js/elements/irl-board.js"
  * @import {World} from "#js/board/state.js"
  */
-import { placeOf } from "#js/board/state.js";
 import { svgElement } from "#js/charts/marker.js";
 
 export class Marks {
@@ -23,7 +22,17 @@ export class Marks {
   /** @param {readonly number[]} states */
   frame(states) {
     const d = framePath(this.#world, states);
-    this.#svg.replaceChildren(...["why-frame-halo", "why-frame"].map((name) => svgElement("path", { class: name, d })));
+    this.#draw(["why-frame-halo", "why-frame"].map((name) => svgElement("path", { class: name, d })));
+  }
+
+  /** @param {readonly number[]} states */
+  dim(states) {
+    this.#draw([svgElement("path", { class: "why-dim", d: squarePath(this.#world, states) })]);
+  }
+
+  /** @param {Element[]} marks */
+  #draw(marks) {
+    this.#svg.replaceChildren(...marks);
     this.#fit();
   }
 
@@ -35,10 +44,15 @@ export class Marks {
   }
 }
 
-/** The frames as the data of one SVG path; a square is 1 wide. @param {Pick<World, "rows" | "cols">} world @param {readonly number[]} states */
+/** The frames as the data of one SVG path; a square is 1 wide. @param {Pick<World, "cols">} world @param {readonly number[]} states */
 export function framePath(world, states) {
+  return squarePath(world, states, 0.08);
+}
+
+/** @param {Pick<World, "cols">} world @param {readonly number[]} states @param {number} [inset] */
+export function squarePath({ cols }, states, inset = 0) {
+  const side = 1 - 2 * inset;
   return states
-    .map((state) => placeOf(/** @type {World} */ (world), state))
-    .map(([row, col]) => `M${col + 0.08},${row + 0.08}h0.84v0.84h-0.84z`)
+    .map((state) => `M${(state % cols) + inset},${Math.floor(state / cols) + inset}h${side}v${side}h${-side}z`)
     .join("");
 }

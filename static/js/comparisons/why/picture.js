@@ -4,7 +4,7 @@
  * @import {View, World} from "#js/board/state.js"
  */
 import { symmetricRange } from "#js/board/colours.js";
-import { framePath } from "#js/comparisons/why/marks.js";
+import { framePath, squarePath } from "#js/comparisons/why/marks.js";
 import { boardFigure, cellFor, paletteOf } from "#js/pictures/board.js";
 import { diverging, flow } from "#js/pictures/legend.js";
 import { framed, worldSentence } from "#js/pictures/picture.js";
@@ -17,14 +17,14 @@ const EDGE = 1;
 
 /**
  * @param {World} world
- * @param {{ view: Partial<View>, framed: readonly number[], ends: [string, string] | null }} shown
+ * @param {{ view: Partial<View>, framed: readonly number[], dimmed: readonly number[], ends: [string, string] | null }} shown
  * @param {{ title: string, note: string }} about
  */
-export function whyPicture(world, { view, framed: states, ends }, { title, note }) {
+export function whyPicture(world, { view, framed: states, dimmed, ends }, { title, note }) {
   const theme = paletteOf("light");
   const board = boardFigure(world, view, { theme });
   const width = Math.max(NARROWEST, board.width);
-  const parts = [{ ...board, markup: board.markup + frames(world, states, theme) }];
+  const parts = [{ ...board, markup: board.markup + marks(world, { framed: states, dimmed }, theme) }];
   if (ends) {
     const sign = diverging(view.scale ?? symmetricRange(view.values ?? []), { theme, size: SIZE });
     parts.push(flow([{ before: ends[0], sign, words: ends[1] }], { width, theme, size: SIZE }));
@@ -32,12 +32,18 @@ export function whyPicture(world, { view, framed: states, ends }, { title, note 
   return framed(parts, { title, note: `${note} ${worldSentence(world)}`.trim(), theme, width });
 }
 
-/** @param {World} world @param {readonly number[]} states @param {{ inkLight: string, inkDark: string }} theme */
-function frames(world, states, { inkLight, inkDark }) {
-  const d = framePath(world, states);
-  const lines = /** @type {const} */ ([
-    [inkLight, 0.13],
-    [inkDark, 0.06],
-  ]).map(([stroke, width]) => tag("path", { d, stroke, "stroke-width": width, fill: "none" }));
-  return states.length > 0 ? place(lines.join(""), EDGE, EDGE, cellFor(world)) : "";
+/**
+ * What `marks.js` lays above the board, in the inks of paper.
+ * @param {World} world
+ * @param {{ framed: readonly number[], dimmed: readonly number[] }} states
+ * @param {import("#js/board/theme.js").Theme} theme
+ */
+function marks(world, { framed: states, dimmed }, { inkLight, inkDark, unknown }) {
+  const [frames, squares] = [framePath(world, states), squarePath(world, dimmed)];
+  const lines = [
+    { d: squares, fill: unknown, "fill-opacity": 0.28 },
+    { d: frames, stroke: inkLight, "stroke-width": 0.13, fill: "none" },
+    { d: frames, stroke: inkDark, "stroke-width": 0.06, fill: "none" },
+  ].filter(({ d }) => d !== "");
+  return lines.length > 0 ? place(lines.map((line) => tag("path", line)).join(""), EDGE, EDGE, cellFor(world)) : "";
 }

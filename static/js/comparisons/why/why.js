@@ -54,7 +54,8 @@ export class Why {
     if (!shown) return;
     this.#show(shown);
     const first = shown.open[0];
-    if (first) this.#part(first).scrollIntoView({ block: "start" });
+    // After the boards above have found their size.
+    if (first) requestAnimationFrame(() => this.#part(first).scrollIntoView({ block: "start" }));
   }
 
   /** @param {Shown} shown */
