@@ -22,6 +22,7 @@ import { short, svgDocument, tag } from "#js/pictures/svg.js";
  * @property {number} [cell]                    side of a square
  * @property {number} [ratio]                   the finest line is this wide
  * @property {"light" | "dark" | Theme} [theme] light, for paper, unless said otherwise
+ * @property {"all" | "squares" | "above"} [layers] a film draws the squares once, and what is above them for each step
  */
 
 /** A board of this side has squares as large as the page's, and no more than a screen's width. */
@@ -35,7 +36,8 @@ export function boardSvg(world, view, { title = "A board", ...options } = {}) {
 }
 
 /** The same as a part of a larger picture. @param {World} world @param {Partial<View>} view @param {BoardOptions} [options] @returns {Figure} */
-export function boardFigure(world, view, { cell = cellFor(world), ratio = 1, theme = "light" } = {}) {
+export function boardFigure(world, view, options = {}) {
+  const { cell = cellFor(world), ratio = 1, theme = "light", layers = "all" } = options;
   const palette = paletteOf(theme);
   const whole = { ...EMPTY_VIEW, ...view };
   const [width, height] = [cell * world.cols, cell * world.rows];
@@ -43,10 +45,12 @@ export function boardFigure(world, view, { cell = cellFor(world), ratio = 1, the
   const pen = new Pen(width, height);
   const geometry = { cell, ratio };
   const scene = { context: pen.context, newPath: Pen.newPath, geometry, world, view: whole, theme: palette, look };
-  drawOnSquares(scene);
-  drawInk(scene);
-  const agents = whole.agents.map((agent) => agentMarkup(world, agent, { cell, theme: palette }));
-  const markup = squares(world, look, cell) + pen.markup + agents.join("") + frame(width, height, palette);
+  if (layers !== "above") drawOnSquares(scene);
+  if (layers !== "squares") drawInk(scene);
+  const below = layers === "above" ? "" : squares(world, look, cell) + frame(width, height, palette);
+  const agents =
+    layers === "squares" ? [] : whole.agents.map((agent) => agentMarkup(world, agent, { cell, theme: palette }));
+  const markup = below + pen.markup + agents.join("");
   return {
     markup: tag("g", { transform: `translate(${EDGE} ${EDGE})` }, markup),
     width: width + 2 * EDGE,

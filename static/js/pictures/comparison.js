@@ -45,9 +45,10 @@ import { brokenInto, fittedInto, textWidth } from "#js/pictures/text-width.js";
  * @property {string[]} citations    "Ziebart et al. 2008", …
  */
 
-/** One unit is 1/96 inch, so that 692 of them are 183 mm, the width of two columns. */
-const WIDTH = 691.65;
+/** One unit is 1/96 inch, so that 692 of them are 183 mm, the width of two columns, with a narrow margin around. */
 const MM = 25.4 / 96;
+const MARGIN = 7;
+const WIDTH = 691.65 - 2 * MARGIN;
 const GAP = 14;
 /** Three sizes of type: 9.5, 7.5 and 7 points. */
 const [TITLE, NAME, SMALL] = [12.7, 10, 9.33];
@@ -91,7 +92,8 @@ class Column {
   }
 
   get figure() {
-    return { markup: this.#drawn, width: WIDTH, height: this.#y };
+    const markup = place(this.#drawn, MARGIN, MARGIN);
+    return { markup, width: WIDTH + 2 * MARGIN, height: this.#y + 2 * MARGIN };
   }
 
   /** @param {number} height */
