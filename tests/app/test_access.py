@@ -39,6 +39,7 @@ EVERYBODY = {
     ("GET", "/api/v1/worlds/{world_id}/ranking-events.csv"): (200, 200, 200),
     ("GET", "/api/v1/worlds/{world_id}/runs"): (200, 200, 200),
     ("POST", "/api/v1/worlds/{world_id}/runs"): (422, 202, 202),  # each of what they have played themselves
+    ("POST", "/api/v1/worlds/{world_id}/previews"): (422, 200, 200),  # as above
 }
 OWNER_ONLY = {
     ("PUT", "/api/v1/demonstrations/{demonstration_id}/discard"): (404, 200, 404),
@@ -58,6 +59,9 @@ OWNER_ONLY = {
     ("DELETE", "/api/v1/runs/{run_id}/shares/{key}"): (404, 404, 404),
     ("GET", "/api/v1/runs/{run_id}/comparison"): (404, 409, 404),
     ("GET", "/api/v1/runs/{run_id}/rollouts"): (404, 409, 404),
+    ("POST", "/api/v1/runs/{run_id}/what-ifs"): (404, 409, 404),
+    ("GET", "/api/v1/runs/{run_id}/influence"): (404, 409, 404),
+    ("GET", "/api/v1/runs/{run_id}/uncertainty"): (404, 409, 404),
     ("GET", "/api/v1/runs/{run_id}/demonstrations.jsonl"): (404, 200, 404),
     ("GET", "/runs/{run_id}"): (404, 200, 404),
     ("GET", "/runs/{run_id}/comparison"): (404, 303, 404),
@@ -114,7 +118,18 @@ def body_for(method, path, world, played):
         return {"json": {"learners": ["meirl"]}}
     if path.endswith("/events") and method == "POST":
         return {"json": {"events": [{"n": 1, "at_ms": 1, "type": "watch", "means": "mouse", "id": played["id"]}]}}
+    last = path.rpartition("/")[2]
+    if last in {"previews", "what-ifs", "influence", "uncertainty"}:
+        return again_for(last, played)
     return {"json": {}} if (method, path) == ("POST", "/api/v1/worlds") else {}
+
+
+def again_for(last, played):
+    """What is asked for when something is to be learned again."""
+    return {
+        "previews": {"json": {"orders": {}}},
+        "what-ifs": {"json": {"learner": "meirl", "change": {"drop": played["id"]}}},
+    }.get(last, {"params": {"learner": "meirl"}})
 
 
 def store_ended_run(client, world, played):

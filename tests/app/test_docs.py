@@ -23,7 +23,7 @@ def test_the_page_shows_every_call_and_every_field_of_a_body(client):
     for path, operations in schema["paths"].items():
         for method in operations:
             assert f"{method.upper()} {path}" in page
-    for body in ("WorldIn", "DemonstrationIn", "RankingIn", "RunIn"):
+    for body in ("WorldIn", "DemonstrationIn", "RankingIn", "RunIn", "PreviewIn", "WhatIfIn"):
         for name in schema["components"]["schemas"][body]["properties"]:
             assert f"<code>{name}</code>" in page
 
