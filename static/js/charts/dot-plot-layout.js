@@ -1,6 +1,6 @@
 /**
- * Where everything on the dot plot lies: one row an agent in the order given, its mean with an interval of two standard
- * errors, its exact expected return and its greedy return on one axis with zero and the optimum.
+ * Where everything on the dot plot lies: one row an agent in the order given, its mean with its 95 % interval
+ * (of two standard errors where an earlier version stored none), its exact expected return and its greedy return on one axis with zero and the optimum.
  * @import {Entry} from "#js/comparisons/types.js"
  */
 import { linearScale, roundDomain, ticks } from "#js/charts/scales.js";
@@ -37,7 +37,7 @@ const MOST_FOR_NAMES = 0.36;
  * @property {number | null} optimum
  */
 
-/** How many standard errors the whisker spans to each side. */
+/** How many standard errors the whisker spans to each side where no interval is told. */
 export const WHISKER = 2;
 
 /**
@@ -107,9 +107,8 @@ function domainOf(values, best) {
 
 /** @param {Entry} entry */
 function extentOf(entry) {
-  const reach = WHISKER * (entry.standard_error ?? 0);
   const exact = [entry.expected_return, entry.greedy_return].filter((value) => value !== null);
-  return [entry.mean_return - reach, entry.mean_return + reach, ...exact];
+  return [entry.mean_return, ...(endsOf(entry) ?? []), ...exact];
 }
 
 /**
@@ -118,6 +117,14 @@ function extentOf(entry) {
  * @returns {[number, number] | null}
  */
 function intervalOf(entry, x) {
-  const reach = WHISKER * (entry.standard_error ?? 0);
-  return reach > 0 ? [x(entry.mean_return - reach), x(entry.mean_return + reach)] : null;
+  const ends = endsOf(entry);
+  return ends && [x(ends[0]), x(ends[1])];
+}
+
+/** Of the interval of the mean; none where there is nothing between them. @param {Entry} entry @returns {[number, number] | null} */
+function endsOf({ mean_return, standard_error, interval_low, interval_high }) {
+  const reach = WHISKER * (standard_error ?? 0);
+  const low = interval_low ?? mean_return - reach;
+  const high = interval_high ?? mean_return + reach;
+  return high > low ? [low, high] : null;
 }

@@ -47,7 +47,7 @@ function drawDotPlot(layout, entries) {
 /** @param {Entry[]} entries */
 function describe(entries) {
   const parts = entries.map((entry) => `${entry.title} ${withError(entry.mean_return, entry.standard_error)}`);
-  return `Average return by place, with intervals of two standard errors: ${parts.join("; ")}. The table says the same in figures.`;
+  return `Average return by place, ± standard error: ${parts.join("; ")}. The table says the same in figures.`;
 }
 
 /** @param {DotPlotLayout} layout */

@@ -1,35 +1,44 @@
 /**
  * One agent on the stage of the Compare page: its board, its running total, its flag.
  * @import {Result, World} from "#js/learning/types.js"
- * @import {Entry, Episode} from "#js/comparisons/types.js"
+ * @import {Role} from "#js/comparisons/cast.js"
+ * @import {Comparison} from "#js/comparisons/types.js"
  * @import {IrlBoard} from "#js/elements/irl-board.js"
  */
 import { figure } from "#js/charts/figures.js";
 import { marker } from "#js/charts/marker.js";
-import { momentAt } from "#js/comparisons/rollouts.js";
-import { isLearner } from "#js/comparisons/sentences.js";
+import { lossLayer, worstOf } from "#js/comparisons/losses.js";
+import { episodeOf, momentAt } from "#js/comparisons/rollouts.js";
 
-/** @typedef {{ ground: "true" | "learned", arrows: boolean, numbers: boolean }} Shown */
+/** @typedef {"true" | "learned" | "lost"} Ground   what lies under the walkers: the world's reward, the learner's, value lost */
+/** @typedef {{ ground: Ground, arrows: boolean, numbers: boolean }} Shown */
 
 export class AgentPanel {
-  /** @type {number[] | null} */
-  #values;
+  #unknown;
+  #reward;
+  #losses;
+  #policy;
+  #worst;
 
   /**
    * @param {HTMLTemplateElement} template
-   * @param {{ entry: Entry, world: World, result: Result | undefined, unknown: boolean[] | null }} agent
+   * @param {{ role: Role, world: World, comparison: Comparison, result: Result | undefined, unknown: boolean[] | null }} agent
    */
-  constructor(template, { entry, world, result, unknown }) {
+  constructor(template, { role, world, comparison, result, unknown }) {
     const copy = document.importNode(template.content, true);
+    const { who } = role.entry;
     this.element = /** @type {HTMLElement} */ (copy.firstElementChild);
-    this.entry = entry;
+    this.role = role;
     this.world = world;
-    this.result = result;
-    this.unknown = unknown;
-    this.#values = result?.reward?.flat() ?? null;
-    this.element.dataset.who = entry.who;
-    this.#part("marker").replaceWith(marker(entry.who));
-    this.#part("title").textContent = entry.title;
+    this.#unknown = unknown;
+    this.#policy = result?.policy ?? null;
+    this.#reward = result?.reward?.flat() ?? null;
+    this.#losses = lossLayer(comparison, who);
+    this.#worst = worstOf(world, comparison, who);
+    Object.assign(this.element.dataset, { who, role: role.key });
+    this.#part("marker").replaceWith(marker(who));
+    this.#part("title").textContent = role.title;
+    this.#part("mark").hidden = result?.outcome !== "diverged";
     this.board.world = world;
   }
 
@@ -37,35 +46,41 @@ export class AgentPanel {
     return /** @type {IrlBoard} */ (this.element.querySelector("irl-board"));
   }
 
-  /**
-   * @param {Episode} episode
-   * @param {number} step
-   * @param {Shown} shown
-   * @param {string} name what this episode is called: "episode 3" or "attempt 3 of 6"
-   */
-  show(episode, step, shown, name) {
-    const { who } = this.entry;
+  /** Where a menu to save the board stands. */
+  get save() {
+    return this.#part("save");
+  }
+
+  /** @param {number} number of the episode, from 0 @param {number} step @param {Shown} shown */
+  show(number, step, shown) {
+    const episode = episodeOf(this.role.episodes, number);
+    if (!episode) return;
+    const { who } = this.role.entry;
     const moment = momentAt(this.world, episode, step);
-    const isLearned = shown.ground === "learned" && this.#values !== null;
+    const name = this.role.nameOf(number);
     this.board.view = {
-      values: isLearned ? this.#values : null,
-      unknown: isLearned ? this.unknown : null,
-      arrows: shown.arrows ? (this.result?.policy ?? null) : null,
+      ...this.#groundOf(shown.ground),
+      arrows: shown.arrows ? this.#policy : null,
       numbers: shown.numbers,
       paths: [{ states: moment.trail, who, width: 0.5, opacity: 0.8 }],
       agents: [{ state: moment.state, who, facing: moment.facing }],
     };
-    this.board.label = `${this.entry.title}, ${name}: ${episode.states.length - 1} steps, earns ${figure(episode.total)}.`;
+    const lost = shown.ground === "lost" ? this.#worst : null;
+    this.board.label =
+      `${this.role.title}, ${name}: ${episode.states.length - 1} steps, earns ${figure(episode.total)}. ${lost?.sentence ?? ""}`.trimEnd();
+    this.#part("note").textContent = lost?.short || this.role.standing;
     this.#part("total").textContent = figure(moment.total);
-    this.#part("line").textContent =
-      who === "human" ? `${name} · step ${moment.step}/${moment.steps}` : `step ${moment.step} of ${moment.steps}`;
+    this.#part("line").textContent = `step ${moment.step} of ${moment.steps}`;
     this.#part("flag").textContent = flagOf(moment);
     this.element.dataset.over = String(moment.isOver);
     this.element.dataset.goal = String(moment.reachedGoal);
   }
 
-  get isLearner() {
-    return isLearner(this.entry);
+  /** @param {Ground} ground */
+  #groundOf(ground) {
+    if (ground === "lost" && this.#losses) return this.#losses;
+    if (ground === "learned" && this.#reward) return { values: this.#reward, unknown: this.#unknown };
+    return {};
   }
 
   /** @param {string} name */

@@ -7,6 +7,7 @@ import { figure } from "#js/charts/figures.js";
 import { marker } from "#js/charts/marker.js";
 import { isLearner, onStage } from "#js/comparisons/sentences.js";
 import { columnsFor } from "#js/learning/line-up.js";
+import { saveMenu } from "#js/pictures/save-menu.js";
 
 export class Beliefs {
   #root;
@@ -58,6 +59,7 @@ export class Beliefs {
     }
     board.world = this.#data.world;
     board.label = label;
+    part("save").append(saveMenu(board, { title: who ? `What ${title} learned` : "What the world pays" }));
     return { element, board, ramp: part("ramp"), lowest: part("lowest"), highest: part("highest") };
   }
 

@@ -1,7 +1,7 @@
 /**
- * Where everybody is in an episode: positions, totals and flags from recorded states. Each agent has its own number of
- * episodes (the person has their attempts), so episode k of the chooser is episode k modulo that number.
- * @import {Episode, Rollouts} from "#js/comparisons/types.js"
+ * Where everybody is in an episode: positions, totals and flags from recorded states. Each has a number of episodes of their
+ * own (an attempt of the person is one), so episode k of the chooser is episode k modulo that number.
+ * @import {Episode} from "#js/comparisons/types.js"
  * @import {World} from "#js/learning/types.js"
  */
 
@@ -27,12 +27,12 @@ export function episodeOf(episodes, episode) {
 }
 
 /**
- * Steps of the longest rollout of an episode.
- * @param {Rollouts} rollouts
+ * Steps of the longest walk of an episode.
+ * @param {{ episodes: Episode[] }[]} cast
  * @param {number} episode
  */
-export function lengthOf(rollouts, episode) {
-  const lengths = Object.values(rollouts).map((episodes) => (episodeOf(episodes, episode)?.states.length ?? 1) - 1);
+export function lengthOf(cast, episode) {
+  const lengths = cast.map(({ episodes }) => (episodeOf(episodes, episode)?.states.length ?? 1) - 1);
   return Math.max(0, ...lengths);
 }
 

@@ -2,21 +2,24 @@
  * The result in words. Two means closer than two standard errors of the learner's are "about the same": the sentence
  * never claims more than fifty episodes can show.
  * @import {Entry} from "#js/comparisons/types.js"
+ * @import {Voice} from "#js/comparisons/voice.js"
  * @import {Result, World} from "#js/learning/types.js"
  */
 import { figure, listed, percent, withError } from "#js/charts/figures.js";
+import { TO_YOU } from "#js/comparisons/voice.js";
 
 const SURE = 2;
 
 /**
- * "IRLFR earned more than you in this world: 5.1 ± 0.4 against 0.2. The optimum is 7.7."
+ * "IRLFR earned more than ${you} in this world: 5.1 ± 0.4 against 0.2. The optimum is 7.7."
  * @param {Entry[]} entries
+ * @param {Voice} [voice]
  */
-export function resultSentence(entries) {
+export function resultSentence(entries, voice = TO_YOU) {
   const human = entries.find((entry) => entry.who === "human");
   const optimum = entries.find((entry) => entry.who === "optimal");
   const learners = learnersByPlace(entries);
-  const parts = [human ? againstHuman(learners, human) : amongLearners(learners)];
+  const parts = [human ? againstHuman(learners, human, voice) : amongLearners(learners)];
   if (optimum) parts.push(optimumSentence(optimum));
   return parts.filter(Boolean).join(" ");
 }
@@ -25,14 +28,16 @@ export function resultSentence(entries) {
  * What stands behind the first sentence: what the person's figure is, their best attempt, who else did better.
  * @param {Entry[]} entries
  * @param {number[]} attemptTotals of the ranked demonstrations
+ * @param {Voice} [voice]
  */
-export function backgroundSentence(entries, attemptTotals) {
+export function backgroundSentence(entries, attemptTotals, { Your, your } = TO_YOU) {
   const human = entries.find((entry) => entry.who === "human");
   if (!human) return "";
   const count = attemptTotals.length || human.episodes;
-  if (count === 1) return `Your figure is your one attempt.${headCount(learnersByPlace(entries), human, "it")}`;
-  const mean = `Your figure is the mean of all ${count} attempts, failures included.`;
-  const best = attemptTotals.length > 0 ? ` Your best attempt alone earned ${figure(Math.max(...attemptTotals))}.` : "";
+  if (count === 1) return `${Your} figure is ${your} one attempt.${headCount(learnersByPlace(entries), human, "it")}`;
+  const mean = `${Your} figure is the mean of all ${count} attempts, failures included.`;
+  const best =
+    attemptTotals.length > 0 ? ` ${Your} best attempt alone earned ${figure(Math.max(...attemptTotals))}.` : "";
   return mean + headCount(learnersByPlace(entries), human, "that mean") + best;
 }
 
@@ -84,8 +89,9 @@ function mannerOf(policy) {
 /**
  * @param {Entry[]} learners by place
  * @param {Entry} human
+ * @param {Voice} voice
  */
-function againstHuman(learners, human) {
+function againstHuman(learners, human, { You, you }) {
   const best = learners[0];
   if (!best) return "";
   const winners = learners.filter((entry) => entry.place === best.place).map((entry) => entry.title);
@@ -94,13 +100,13 @@ function againstHuman(learners, human) {
   const yours = figure(human.mean_return);
   const verdict = against(best, human);
   if (verdict === 0) {
-    return `${names} and you earned about the same in this world: ${withReturn(best)} and ${yours}.`;
+    return `${names} and ${you} earned about the same in this world: ${withReturn(best)} and ${yours}.`;
   }
   if (verdict > 0)
-    return `${names} ${together ? "each " : ""}earned more than you in this world: ${withReturn(best)} against ${yours}.`;
+    return `${names} ${together ? "each " : ""}earned more than ${you} in this world: ${withReturn(best)} against ${yours}.`;
   if (learners.length === 1)
-    return `You earned more than ${names} in this world: ${yours} against ${withReturn(best)}.`;
-  return `You earned more than every learner in this world: ${yours} against ${withReturn(best)} for ${names}, the best of them.`;
+    return `${You} earned more than ${names} in this world: ${yours} against ${withReturn(best)}.`;
+  return `${You} earned more than every learner in this world: ${yours} against ${withReturn(best)} for ${names}, the best of them.`;
 }
 
 /** @param {Entry[]} learners by place */

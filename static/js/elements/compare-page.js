@@ -8,6 +8,7 @@ import { Beliefs } from "#js/comparisons/beliefs.js";
 import { Figures } from "#js/comparisons/figures.js";
 import { Stage } from "#js/comparisons/stage.js";
 import { TakeAway } from "#js/comparisons/take-away.js";
+import { voiceOf } from "#js/comparisons/voice.js";
 import { Why } from "#js/comparisons/why/why.js";
 import { untouched } from "#js/learning/material.js";
 import { pageData } from "#js/lib/page-data.js";
@@ -17,7 +18,7 @@ import { pageData } from "#js/lib/page-data.js";
  * @typedef {object} Parts
  * @property {HTMLElement} root
  * @property {ComparePageData} data
- * @property {Entry[]} entries                               by place, the person spoken to as "You"
+ * @property {Entry[]} entries                               by place, the person "You" or "The player"
  * @property {(learner: string) => boolean[]} unknownTo      squares that no attempt the learner uses came to
  */
 
@@ -49,7 +50,9 @@ export class ComparePage extends HTMLElement {
     return {
       root: this,
       data,
-      entries: comparison.entries.map((entry) => (entry.who === "human" ? { ...entry, title: "You" } : entry)),
+      entries: comparison.entries.map((entry) =>
+        entry.who === "human" ? { ...entry, title: voiceOf(data.is_own).You } : entry,
+      ),
       unknownTo: (name) => {
         // Who does not look at failures does not know a square where only a failure came.
         const uses_failures = learners.find((learner) => learner.name === name)?.uses_failures ?? true;
