@@ -80,10 +80,11 @@ def _beyond_chance(overview: Overview, titles: Mapping[str, str], voice: Voice) 
         for duel in overview.duels
         if duel.p_adjusted < ALPHA
     ]
-    test = f"sign test, {len(overview.duels)} pairs, Holm’s correction"
+    n_pairs = len(overview.duels)
+    test = "sign test" if n_pairs == 1 else f"sign test, {n_pairs} pairs, Holm’s correction"
     if told_apart:
         return f"{_these(told_apart, titles)} more than chance would give ({test}, p < {ALPHA})."
-    needed = votes_needed(len(overview.duels))
+    needed = votes_needed(n_pairs)
     if overview.n_units < needed:
         return (
             f"None of this is beyond chance yet: to tell a pair apart takes {voice.units(needed)} that all say the"
