@@ -1,7 +1,7 @@
 """Appending to a run's stream: numbered without gaps, in the transaction of what the event tells of."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
 from sqlalchemy import func, insert, select
@@ -14,6 +14,23 @@ Kind = Literal["frame", "learner", "done", "failed"]
 
 def append(session: Session, run_id: str, kind: Kind, data: Mapping[str, Any]) -> None:
     """Store the next event of a run. NaN and infinity, which JSON lacks, are an error here and not in the browser."""
-    number = select(func.coalesce(func.max(RunEvent.number), 0) + 1).where(RunEvent.run_id == run_id).scalar_subquery()
-    text = json.dumps(data, allow_nan=False, separators=(",", ":"))
-    session.execute(insert(RunEvent).values(run_id=run_id, number=number, kind=kind, data=text))
+    _append(session, run_id, kind, [data])
+
+
+def append_frames(session: Session, run_id: str, frames: Sequence[Mapping[str, Any]]) -> None:
+    """Store frames, in order."""
+    _append(session, run_id, "frame", frames)
+
+
+def _append(session: Session, run_id: str, kind: Kind, told: Sequence[Mapping[str, Any]]) -> None:
+    newest = session.scalar(select(func.coalesce(func.max(RunEvent.number), 0)).where(RunEvent.run_id == run_id)) or 0
+    rows = [
+        {
+            "run_id": run_id,
+            "number": number,
+            "kind": kind,
+            "data": json.dumps(data, allow_nan=False, separators=(",", ":")),
+        }
+        for number, data in enumerate(told, newest + 1)
+    ]
+    session.execute(insert(RunEvent), rows)

@@ -1,7 +1,8 @@
 """The queue between the web processes, which ask, and the workers, which learn (DBOS Transact on the same database).
 
 A run's row and its job are written in one transaction, and the run's id is the job's id: neither can exist without the
-other, and asking twice is asking once. Jobs of one visitor follow each other, so that nobody waits for another's tenth.
+other, and asking twice is asking once. A visitor has a few jobs under way at once and no more, so
+that nobody waits for another's tenth.
 """
 
 from dbos import DBOSClient, DBOSPortableJSONSerializer

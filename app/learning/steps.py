@@ -1,7 +1,7 @@
 """What a worker does in a run, in steps that are each one transaction and may be done again.
 
     begin      queued → running
-    advance    a learner goes on for a moment; its checkpoint and a frame are stored together
+    advance    a learner goes on for a moment; its checkpoint and its frames are stored together
                … its last step stores the result instead, once, and forgets the checkpoint
     finish     everybody is compared; running → done
     fail       the reason is stored; → failed
@@ -12,7 +12,9 @@ the checkpoint, whose numbers are stored exactly, and goes on to the same result
 
 import math
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any, TypeVar
 
 from sqlalchemy import delete, func, select, update
 from sqlalchemy.dialects.sqlite import insert
@@ -24,10 +26,14 @@ from app.kit import clock
 from app.learning import events, queries
 from app.learning.convert import to_problem
 from app.models import Run, RunCheckpoint, RunResult
-from irl_core import LEARNERS, Demonstration, Frame, Learner, LearningProblem, LearningResult, LearningState, compare
+from irl_core import LEARNERS, Demonstration, Learner, LearningProblem, LearningResult, LearningState, compare
+
+T = TypeVar("T")
 
 FRAME_EVERY_S = 0.08
-"""How long a learner works between two frames: smooth to the eye, and how soon a cancellation is noticed."""
+"""How long a learner works between two frames: smooth to the eye."""
+STORE_EVERY_S = 0.05
+"""Frames that come faster are stored together: a transaction costs more than a small frame."""
 FRAME_EVERY_SHARE = 7 / 6
 """A frame whenever a learner has gone this much further, however fast it is: what changes most changes first."""
 FRAME_S_PER_STATE = 1e-4
@@ -58,6 +64,7 @@ class LoadedRun:
 
     id: str
     learners: tuple[str, ...]
+    visitor_id: str
     demonstrations: tuple[Demonstration, ...]
     problem: LearningProblem
 
@@ -76,50 +83,87 @@ def begin(database: Database, run_id: str) -> LoadedRun:
         return session.scalars(select(Run.n_vain_starts).where(Run.id == run_id)).one()
 
     with database.read() as session:
-        run = session.get_one(Run, run_id)
+        run = session.get(Run, run_id)
+        if run is None:
+            raise NoLongerWanted
         world = queries.world_of(session, run).world
         rows = queries.demonstrations_of(session, run)
     if database.write(start) > MOST_VAIN_STARTS:
         message = f"The worker died {MOST_VAIN_STARTS} times at the same point of this run, so it was given up."
         raise KillsWorkers(message)
     problem = to_problem(world, rows, run.rankings, settings=run.settings, seed=run.seed)
-    return LoadedRun(run_id, tuple(run.learners), tuple(map(demonstration_from_row, rows)), problem)
+    return LoadedRun(run_id, tuple(run.learners), run.visitor_id, tuple(map(demonstration_from_row, rows)), problem)
 
 
-def advance(database: Database, run: LoadedRun, name: str) -> bool:
-    """Let a learner go on for a moment; True when it has finished. Raises NoLongerWanted."""
+def advance(database: Database, run: LoadedRun, name: str, give_way: Callable[[], None] = lambda: None) -> bool:
+    """Let a learner go on for a moment; True when it has finished. Raises NoLongerWanted.
+
+    Between iterations it gives way to whoever ought to compute before it.
+    """
     with database.read() as session:
         if session.get(RunResult, (run.id, name)) is not None:
             return True
         checkpoint = session.get(RunCheckpoint, (run.id, name))
-    learner = LEARNERS[name]
+    stint = _Stint(LEARNERS[name], run.problem)
     if checkpoint is None:
-        state = learner.start(run.problem)  # and its first frame is of what it knows before it has learned anything
+        stint.start()  # and its first frame is of what it knows before it has learned anything
     else:
-        state = LearningState.from_json(checkpoint.state)
-        state = _gone_on(learner, run.problem, state)
-    frame = learner.frame(run.problem, state)
-    if state.outcome is None:
-        database.write(lambda session: _store_progress(session, run.id, name, state, frame))
+        stint.go_on(LearningState.from_json(checkpoint.state), checkpoint.compute_ms, give_way)
+    if stint.state.outcome is None:
+        database.write(lambda session: _store_progress(session, run.id, stint))
         return False
-    result = learner.result(run.problem, state)
-    database.write(lambda session: _store_result(session, run.id, name, result, frame))
+    result = stint.result()
+    database.write(lambda session: _store_result(session, run.id, result, stint))
     return True
 
 
-def _gone_on(learner: Learner, problem: LearningProblem, state: LearningState) -> LearningState:
-    """The state at which the next frame is due, if learning does not end before."""
-    n_states = problem.world.n_states
-    until = time.monotonic() + max(FRAME_EVERY_S, FRAME_S_PER_STATE * n_states)
-    if n_states >= LARGE_WORLD:
-        at_once, last = 1, math.inf
-    else:
-        at_once, last = 5, FRAME_EVERY_SHARE * state.iteration
-    while state.outcome is None and time.monotonic() < until:
-        state = learner.advance(problem, state, iterations=at_once)
-        if state.iteration >= last:
-            break
-    return state
+class _Stint:
+    """What a learner does in one step: how far it comes, what it shows, and how long it has computed itself."""
+
+    def __init__(self, learner: Learner, problem: LearningProblem) -> None:
+        self.learner = learner
+        self.problem = problem
+        self.frames: list[dict[str, Any]] = []
+        self.compute_ms = 0.0
+        self.state: LearningState
+
+    def start(self) -> None:
+        """Begin."""
+        self.state = self._timed(lambda: self.learner.start(self.problem))
+        self._show()
+
+    def go_on(self, state: LearningState, compute_ms: float, give_way: Callable[[], None]) -> None:
+        """Learn on from a checkpoint, until it is time to store."""
+        self.state, self.compute_ms = state, compute_ms
+        until = time.monotonic() + STORE_EVERY_S
+        while self.state.outcome is None and (not self.frames or time.monotonic() < until):
+            self._go_on_to_next_frame(give_way)
+            self._show()
+
+    def result(self) -> LearningResult:
+        """What it came to."""
+        return self._timed(lambda: self.learner.result(self.problem, self.state))
+
+    def _go_on_to_next_frame(self, give_way: Callable[[], None]) -> None:
+        n_states = self.problem.world.n_states
+        until = time.monotonic() + max(FRAME_EVERY_S, FRAME_S_PER_STATE * n_states)
+        at_once, last = (1, math.inf) if n_states >= LARGE_WORLD else (5, FRAME_EVERY_SHARE * self.state.iteration)
+        while self.state.outcome is None and time.monotonic() < until:
+            self.state = self._timed(lambda: self.learner.advance(self.problem, self.state, iterations=at_once))
+            if self.state.iteration >= last:
+                break
+            give_way()
+
+    def _show(self) -> None:
+        frame = self.learner.frame(self.problem, self.state).to_json(digits=FRAME_DIGITS)
+        self.frames.append(frame | {"compute_ms": round(self.compute_ms, 3)})
+
+    def _timed(self, work: Callable[[], T]) -> T:
+        """Do it, and count the time of this thread alone: others may take turns with it."""
+        began = time.thread_time()
+        done = work()
+        self.compute_ms += 1000 * (time.thread_time() - began)
+        return done
 
 
 def finish(database: Database, run: LoadedRun) -> None:
@@ -166,19 +210,26 @@ def _claim(session: Session, run_id: str, **changes: object) -> None:
         raise NoLongerWanted
 
 
-def _store_progress(session: Session, run_id: str, name: str, state: LearningState, frame: Frame) -> None:
+def _store_progress(session: Session, run_id: str, stint: _Stint) -> None:
     _claim(session, run_id, n_vain_starts=0)
-    values = {"run_id": run_id, "learner": name, "state": state.to_json()}
+    values = {
+        "run_id": run_id,
+        "learner": stint.learner.name,
+        "state": stint.state.to_json(),
+        "compute_ms": stint.compute_ms,
+    }
     session.execute(
         insert(RunCheckpoint).values(values).on_conflict_do_update(index_elements=["run_id", "learner"], set_=values)
     )
-    events.append(session, run_id, "frame", frame.to_json(digits=FRAME_DIGITS))
+    events.append_frames(session, run_id, stint.frames)
 
 
-def _store_result(session: Session, run_id: str, name: str, result: LearningResult, frame: Frame) -> None:
+def _store_result(session: Session, run_id: str, result: LearningResult, stint: _Stint) -> None:
     _claim(session, run_id, n_vain_starts=0)
-    data = result.to_json()
-    session.execute(insert(RunResult).values(run_id=run_id, learner=name, result=data, finished_at=clock.now()))
+    name, data = stint.learner.name, result.to_json()
+    row = {"run_id": run_id, "learner": name, "result": data, "compute_ms": stint.compute_ms}
+    session.execute(insert(RunResult).values(row | {"finished_at": clock.now()}))
     session.execute(delete(RunCheckpoint).where(RunCheckpoint.run_id == run_id, RunCheckpoint.learner == name))
-    events.append(session, run_id, "frame", frame.to_json(digits=FRAME_DIGITS))
-    events.append(session, run_id, "learner", {"learner": name} | {k: v for k, v in data.items() if k != "policy"})
+    events.append_frames(session, run_id, stint.frames)
+    told = {name: value for name, value in data.items() if name != "policy"}
+    events.append(session, run_id, "learner", {"learner": name, "compute_ms": round(stint.compute_ms, 3)} | told)

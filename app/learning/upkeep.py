@@ -10,7 +10,7 @@ import logging
 import os
 import time
 from collections.abc import Collection
-from datetime import timedelta
+from datetime import datetime, timedelta
 from pathlib import Path
 
 from dbos import DBOS
@@ -49,6 +49,7 @@ class Upkeep:
         self._at_work = at_work
         self._idle: set[str] = set()
         self._forget_next = time.monotonic()
+        self._ready_at: datetime | None = None
 
     def look_after(self) -> None:
         """Do all of it once."""
@@ -63,12 +64,17 @@ class Upkeep:
         """Leave a sign of life."""
         self._database.write(self._sign)
 
+    def say_ready(self) -> None:
+        """Say that this worker takes runs from now on."""
+        self._ready_at = clock.now()
+        self.show_life()
+
     def say_goodbye(self) -> None:
         """Take the sign of life down."""
         self._database.write(lambda session: session.execute(delete(Worker).where(Worker.name == self._name)))
 
     def _sign(self, session: Session) -> None:
-        values = {"name": self._name, "pid": os.getpid(), "seen_at": clock.now()}
+        values = {"name": self._name, "pid": os.getpid(), "seen_at": clock.now(), "ready_at": self._ready_at}
         session.execute(insert(Worker).values(values).on_conflict_do_update(index_elements=["name"], set_=values))
 
     def _return_idle_jobs(self) -> None:

@@ -12,6 +12,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable
+from functools import partial
 from typing import ParamSpec, TypeVar
 
 from dbos import DBOS, DBOSConfig, DBOSPortableJSONSerializer
@@ -19,8 +20,10 @@ from filelock import FileLock, Timeout
 
 from app.config import Settings
 from app.db import CANNOT_WRITE, WORKER_PATIENCE_MS, Database, make_engine, migrate
+from app.kit.bell import Ringer, RungEvent
 from app.learning import steps
-from app.learning.jobs import APPLICATION, APPLICATION_VERSION, QUEUE, WORKFLOW
+from app.learning.jobs import APPLICATION, APPLICATION_VERSION, QUEUE, WEB_BELL, WORKFLOW
+from app.learning.turns import Turns
 from app.learning.upkeep import Upkeep, lock_of
 from irl_core import IrlError, warm_up
 
@@ -31,6 +34,10 @@ T = TypeVar("T")
 UPKEEP_EVERY_S = 3.0
 SHOW_LIFE_EVERY_S = 1.0
 LOOK_FOR_RUNS_EVERY_S = 0.1
+"""Where nobody rings; otherwise at once."""
+RUNS_AT_ONCE = 16
+RUNS_OF_A_VISITOR_AT_ONCE = 4
+"""In all workers together: who asks for many leaves room for others."""
 TRY_AGAIN_AFTER_S = 1.0
 SAY_GOODBYE_WITHIN_S = 1.0
 NICENESS = 10
@@ -56,13 +63,13 @@ def work(settings: Settings, *, name: str, follow_stdin: bool = False) -> None:
         os._exit(code)  # the job engine's threads would keep a process alive that does nothing any more
 
 
-def learn_now(database: Database, run_id: str) -> None:
-    """Carry a run to its end, whatever the end is."""
+def learn_now(
+    database: Database, run_id: str, *, turns: Turns | None = None, tell: Callable[[], None] = lambda: None
+) -> None:
+    """Carry a run to its end, whatever the end is; `tell` that something was stored."""
     try:
         run = _insist(steps.begin, database, run_id)
-        for learner in run.learners:
-            while not _insist(steps.advance, database, run, learner):
-                pass
+        _learn_by_turns(database, run, turns or Turns(), tell)
         _insist(steps.finish, database, run)
     except steps.NoLongerWanted:
         logger.info("Run %s is no longer wanted", run_id)
@@ -75,6 +82,20 @@ def learn_now(database: Database, run_id: str) -> None:
         logger.exception("Run %s failed", run_id)
         reason = f"Something went wrong inside the learner ({type(error).__name__}); the server's log has the details."
         _insist(steps.fail, database, run_id, reason)
+    tell()
+
+
+def _learn_by_turns(database: Database, run: steps.LoadedRun, turns: Turns, tell: Callable[[], None]) -> None:
+    turn = turns.join(run.visitor_id)
+    try:
+        for learner in run.learners:
+            is_finished = False
+            while not is_finished:
+                with turn:
+                    is_finished = _insist(steps.advance, database, run, learner, turn.give_way)
+                tell()
+    finally:
+        turn.leave()
 
 
 def _insist(step: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> T:
@@ -120,14 +141,16 @@ def _work(settings: Settings, name: str, stop: threading.Event) -> None:
     _warm_up(upkeep, stop)
     if not stop.is_set():
         _launch(settings, name, database, at_work)
+        upkeep.say_ready()
         _keep_up(upkeep, stop)
     _say_goodbye(upkeep)
 
 
 def _launch(settings: Settings, name: str, database: Database, at_work: set[str]) -> None:
     """Begin to take jobs."""
-    _define_workflow(database, at_work)
-    DBOS(
+    ringer = Ringer(settings.data_dir)
+    _define_workflow(database, at_work, tell=lambda: ringer.ring(WEB_BELL))
+    engine = DBOS(
         config=DBOSConfig(
             name=APPLICATION,
             application_version=APPLICATION_VERSION,
@@ -141,8 +164,28 @@ def _launch(settings: Settings, name: str, database: Database, at_work: set[str]
     )
     DBOS.launch()
     DBOS.register_queue(
-        QUEUE, worker_concurrency=1, partition_concurrency=1, polling_interval_sec=LOOK_FOR_RUNS_EVERY_S
+        QUEUE,
+        worker_concurrency=RUNS_AT_ONCE,
+        partition_concurrency=RUNS_OF_A_VISITOR_AT_ONCE,
+        polling_interval_sec=LOOK_FOR_RUNS_EVERY_S,
     )
+    _look_when_it_rings(engine, RungEvent(settings.data_dir, name))
+
+
+def _look_when_it_rings(engine: DBOS, bell: RungEvent) -> None:
+    """Let the next look at the queue come as soon as the bell rings: the engine itself only knows to wait for a time.
+
+    It waits by its event to stop. Should a later engine wait otherwise, the looks at intervals remain.
+    """
+
+    def wait(event: threading.Event, timeout: float | None = None) -> bool:
+        if timeout is None or threading.current_thread().name != f"queue-worker-{QUEUE}":
+            return threading.Event.wait(event, timeout)
+        bell.wait(timeout)
+        return event.is_set()
+
+    for event in engine.background_thread_stop_events:
+        event.wait = partial(wait, event)  # type: ignore[method-assign]
 
 
 def _warm_up(upkeep: Upkeep, stop: threading.Event) -> None:
@@ -154,14 +197,15 @@ def _warm_up(upkeep: Upkeep, stop: threading.Event) -> None:
         warming.join(SHOW_LIFE_EVERY_S)
 
 
-def _define_workflow(database: Database, at_work: set[str]) -> None:
+def _define_workflow(database: Database, at_work: set[str], tell: Callable[[], None]) -> None:
     """Tell the job engine what a job is. It need not count deaths: `steps.begin` does, and knows of progress."""
+    turns = Turns()
 
     @DBOS.workflow(name=WORKFLOW, max_recovery_attempts=None)
     def learn(run_id: str) -> None:
         at_work.add(run_id)
         try:
-            learn_now(database, run_id)
+            learn_now(database, run_id, turns=turns, tell=tell)
         finally:
             at_work.discard(run_id)
 

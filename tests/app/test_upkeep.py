@@ -156,7 +156,7 @@ def start_worker(settings, name, **more):
     return subprocess.Popen(command, env=environment, cwd=settings.data_dir, **more)
 
 
-def until(condition, *, within_s=30.0):
+def until(condition, *, within_s=120.0):
     deadline = time.monotonic() + within_s
     while not condition():
         assert time.monotonic() < deadline, "it did not happen in time"
