@@ -2,12 +2,12 @@
 
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Query
+from fastapi import APIRouter, Depends, Query
 
 from app.dependencies import DatabaseFromApp
 from app.learning.dependencies import RunFromPath
 from app.retraining import service
-from app.retraining.dependencies import AnswersFromApp, AskerFromRequest
+from app.retraining.dependencies import AnswersFromApp, AskerFromRequest, check_is_shown
 from app.retraining.schemas import InfluenceOut, LearnedOut, PreviewIn, UncertaintyOut, WhatIfIn, WhatIfOut
 from app.visitors import VisitorOrNone
 from app.worlds.dependencies import WorldFromPath
@@ -17,7 +17,12 @@ router = APIRouter(prefix="/api/v1", tags=["learning again"])
 LearnerFromQuery = Annotated[str, Query(max_length=40, description="The name of a learner of this run.")]
 
 
-@router.post("/worlds/{world_id}/previews", summary="Preview what an order teaches", response_model=LearnedOut)
+@router.post(
+    "/worlds/{world_id}/previews",
+    summary="Preview what an order teaches",
+    response_model=LearnedOut,
+    dependencies=[Depends(check_is_shown)],
+)
 async def preview(
     world: WorldFromPath,
     asked: PreviewIn,
@@ -29,7 +34,8 @@ async def preview(
 
     The result is that of a run with these orders, these settings and seed 0. Refused with 409 `superseded` where you
     asked for another preview before this one's turn came, with 422 `missing_demonstrations` where nothing can be
-    learned yet and `too_slow` where it takes longer than a few seconds, with 503 where the server is too busy.
+    learned yet and `too_slow` where it takes longer than a few seconds, with 503 where the server is too busy, with 403
+    `not_shown` where the study keeps it back.
     """
     return await service.preview(asker, database, world=world, visitor_id=visitor_id, asked=asked)
 

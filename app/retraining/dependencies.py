@@ -6,6 +6,7 @@ from typing import Annotated
 
 from fastapi import Depends, FastAPI, Request
 
+from app.errors import NotShown
 from app.kit.companion import Asker, Companion
 from app.learning.supervisor import ONE_THREAD_EACH
 from app.retraining import computing
@@ -32,6 +33,13 @@ async def get_asker(request: Request, visitor_id: VisitorOrNone) -> Asker:
     client = request.client
     who = visitor_id or (f"{client.host}:{client.port}" if client else "somebody")
     return Asker(request.app.state.companion, who)
+
+
+async def check_is_shown(request: Request) -> None:
+    """Refuse what the study keeps from its participants while they order."""
+    if not request.app.state.settings.show_policy:
+        message = "What would be learned from an order is not shown in this study."
+        raise NotShown(message)
 
 
 async def get_answers(request: Request) -> Answers:

@@ -13,20 +13,24 @@ TOO_SLOW = (
     "Learning takes too long here to wait for it. Press Learn, which has all the time it needs, or try a smaller world"
     " or fewer iterations."
 )
+TOO_SLOW_AGAIN = (
+    "Learning again takes too long here to wait for it. It is quicker for another learner, with fewer iterations, or in"
+    " a smaller world."
+)
 TOO_LARGE = "The learner ran out of memory. Try a smaller world."
 FAILED = "Something went wrong inside the learner; the server's log has the details."
 NOT_NOW = "Learning at once is busy or just starting on this server. Please try again in a moment."
 
 
 @contextmanager
-def in_words() -> Iterator[None]:
+def in_words(*, too_slow: str = TOO_SLOW_AGAIN) -> Iterator[None]:
     """Turn what can go wrong in the companion into what people are told. Raises AppError, or irl_core's refusals."""
     try:
         yield
     except Superseded as error:
         raise Conflict(SUPERSEDED, code="superseded") from error
     except (TooSlow, Overdue) as error:
-        raise Unprocessable(TOO_SLOW, code="too_slow") from error
+        raise Unprocessable(too_slow, code="too_slow") from error
     except MemoryError as error:
         raise Unprocessable(TOO_LARGE, code="too_large") from error
     except Failed as error:

@@ -19,7 +19,7 @@ from app.retraining import computing
 from app.retraining.answers import Answers
 from app.retraining.convert import changed_out, learned_out
 from app.retraining.findings import Finding, find_influence, find_uncertainty
-from app.retraining.refusals import in_words, missing_demonstrations
+from app.retraining.refusals import TOO_SLOW, in_words, missing_demonstrations
 from app.retraining.schemas import OrdersIn, PreviewIn, WhatIfIn
 from app.worlds.convert import StoredWorld
 from irl_core import LEARNERS, LearningProblem, LearningResult
@@ -36,7 +36,7 @@ async def preview(
     """Learn from orders as they stand. Raises Unprocessable; Conflict where this asker wants another by now."""
     line = asker.line("preview")
     learner, problem = await to_thread.run_sync(_previewed, database, world, visitor_id, asked)
-    with in_words():
+    with in_words(too_slow=TOO_SLOW):
         return learned_out(await line.ask(computing.learn_again, learner, problem))
 
 

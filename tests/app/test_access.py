@@ -39,7 +39,7 @@ EVERYBODY = {
     ("GET", "/api/v1/worlds/{world_id}/ranking-events.csv"): (200, 200, 200),
     ("GET", "/api/v1/worlds/{world_id}/runs"): (200, 200, 200),
     ("POST", "/api/v1/worlds/{world_id}/runs"): (422, 202, 202),  # each of what they have played themselves
-    ("POST", "/api/v1/worlds/{world_id}/previews"): (422, 200, 200),  # as above
+    ("POST", "/api/v1/worlds/{world_id}/previews"): (422, 422, 422),  # as above: nobody has a failure yet
 }
 OWNER_ONLY = {
     ("PUT", "/api/v1/demonstrations/{demonstration_id}/discard"): (404, 200, 404),
@@ -127,7 +127,7 @@ def body_for(method, path, world, played):
 def again_for(last, played):
     """What is asked for when something is to be learned again."""
     return {
-        "previews": {"json": {"orders": {}}},
+        "previews": {"json": {"learner": "irlfr", "orders": {}}},
         "what-ifs": {"json": {"learner": "meirl", "change": {"drop": played["id"]}}},
     }.get(last, {"params": {"learner": "meirl"}})
 

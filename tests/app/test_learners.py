@@ -20,6 +20,7 @@ SERVES_PAGES = """
 import sys
 from pathlib import Path
 from app.main import create_app
+from tests.companion import wait_for_companion
 from tests.conftest import make_settings, open_client
 from tests.factories import make_demonstration
 with open_client(create_app(make_settings(Path(sys.argv[1])))) as client:
@@ -28,6 +29,8 @@ with open_client(create_app(make_settings(Path(sys.argv[1])))) as client:
     assert [client.get(page).status_code for page in pages] == [200] * len(pages)
     make_demonstration(client, world)
     assert client.post(f"/api/v1/worlds/{world['id']}/runs", json={"learners": ["meirl"]}).status_code == 202
+    wait_for_companion(client.app)
+    assert client.post(f"/api/v1/worlds/{world['id']}/previews", json={"orders": {}}).status_code == 200
 print(sorted({"numba", "scipy", "matplotlib", "gymnasium"} & set(sys.modules)))
 """
 
@@ -82,7 +85,7 @@ def test_every_learner_has_a_hue_and_a_shape_of_its_own(name):
     assert name in known
 
 
-def test_serving_pages_and_asking_for_a_run_loads_no_compiler(settings):
+def test_serving_pages_asking_for_a_run_and_previewing_load_no_compiler(settings):
     done = subprocess.run(
         [sys.executable, "-c", SERVES_PAGES, str(settings.data_dir)],
         capture_output=True,

@@ -17,6 +17,7 @@ from app.retraining.computing import TooSlow
 from app.retraining.findings import affordable, check_pace
 from irl_core.influence import influence
 from irl_core.uncertainty import bootstrap
+from tests.companion import wait_for_companion
 from tests.conftest import make_settings, open_client
 from tests.factories import attempt, best_path, losing_path, make_ranking, make_world, post_demonstration
 
@@ -28,7 +29,9 @@ LEARNERS = ("irlfr", "birlfr", "trex")
 def client(tmp_path_factory, migrated_database):
     settings = make_settings(tmp_path_factory.mktemp("retraining"))
     shutil.copy(migrated_database, settings.database_path)
-    with open_client(create_app(settings)) as opened:
+    app = create_app(settings)
+    with open_client(app) as opened:
+        wait_for_companion(app)
         yield opened
 
 
@@ -191,6 +194,10 @@ class TestPreviews:
         attempt_of(client, world, best_path(world))
         endless = {"iterations": 100_000}
         refused(preview(client, world, {}, settings=endless), 422, "too_slow", "Press Learn")
+
+    def test_a_study_may_keep_it_from_its_participants(self, settings):
+        with open_client(create_app(settings.model_copy(update={"show_policy": False}))) as client:
+            refused(preview(client, make_world(client), {}), 403, "not_shown", "not shown in this study")
 
 
 class TestWhatIfs:
