@@ -3,7 +3,7 @@ import { readFileSync } from "node:fs";
 import test from "node:test";
 import { luminance, markerPath, parseColour, toOklab, WALKERS, walker } from "#js/board/colours.js";
 import { fitted, layOutDotPlot } from "#js/charts/dot-plot-layout.js";
-import { columnsFor } from "#js/learning/line-up.js";
+import { columnsFor } from "#js/learning/columns.js";
 
 const css = readFileSync(new URL("../../static/css/tokens.css", import.meta.url), "utf8");
 const BASELINE = "--who-baseline";

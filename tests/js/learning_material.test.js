@@ -52,8 +52,13 @@ test("a ranking that misses an attempt does not count", () => {
   );
   assert.equal(
     describeMaterial([success, other, failure], rankings),
-    "2 successes and 1 failure, the successes not in order yet.",
+    "To learn from: 2 successes and 1 failure, the successes not in order yet.",
   );
+});
+
+test("where nothing was played the page says so once", () => {
+  const nothing = describeMaterial([], { success: null, failure: null });
+  assert.equal(nothing, "There is nothing to learn from yet: play first, then put your attempts in order.");
 });
 
 test("a run is old once something was played or ranked after it", () => {

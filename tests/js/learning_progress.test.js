@@ -19,14 +19,25 @@ const frame = (learner, iteration) => ({ learner, iteration, iterations: 500, ga
 
 test("a queued run says what it waits for", () => {
   const progress = queued();
-  assert.equal(progress.sentence, "Queued: learning starts as soon as a worker is free.");
+  progress.wait({ ahead: 2, worker: "ready" });
+  assert.equal(progress.sentence, "2 runs are before yours.");
+  progress.wait({ ahead: 1 });
+  assert.equal(progress.sentence, "1 run is before yours.");
+  progress.wait({ ahead: 0 });
+  assert.equal(progress.sentence, "Your run is next: learning starts in a moment.");
+  progress.wait({ ahead: 0, worker: "warming" });
+  assert.match(progress.sentence, /^The learners are being warmed up: .* takes up to a minute\.$/);
+  progress.wait({ ahead: 0, worker: "none" });
+  assert.equal(progress.sentence, "No worker is running at the moment; your run waits and nothing is lost.");
   assert.equal(progress.stageOf("meirl"), "waiting");
 });
 
 test("a learner's line names iteration and gap", () => {
   const progress = queued();
   progress.see(frame("meirl", 120));
-  assert.equal(progress.sentenceOf("meirl"), "iteration 120 of 500 · the gap to your play is 0.40 visits");
+  assert.equal(progress.sentenceOf("meirl"), "iteration 120 of 500 · gap 0.40 visits");
+  progress.see({ ...frame("meirl", 120), compute_ms: 312.5 });
+  assert.equal(progress.sentenceOf("meirl"), "iteration 120 of 500 · 0.31 s · gap 0.40 visits");
   assert.equal(progress.sentence, "MEIRL is learning, the first of 2 learners.");
   assert.equal(progress.sentenceOf("irlr"), "waiting its turn");
   assert.equal(progress.shareOf("meirl"), 0.24);
@@ -52,7 +63,8 @@ test("the end is told, with what was left out and who ran away", () => {
     "Both learners have learned from your play. 1 failure that never reached the goal was left out.",
   );
   progress.settle("irlr", { outcome: "diverged" });
-  assert.equal(progress.sentence, "The run is done. IRLR ran away instead of settling.");
+  assert.match(progress.sentence, /^The run is done\. IRLR ran away .* the last weights that were finite numbers\./);
+  assert.equal(progress.endingOf("irlr"), "diverged");
 });
 
 test("a failed run says why, a cancelled one how far it came", () => {
@@ -92,7 +104,29 @@ test("nobody claims that random play has learned", () => {
 test("who takes no iterations does not count them, and the time line is as long as the longest", () => {
   const progress = queued();
   progress.see({ ...frame("random", 0), iterations: 0 });
-  assert.equal(progress.sentenceOf("random"), "the gap to your play is 0.40 visits");
+  assert.equal(progress.sentenceOf("random"), "gap 0.40 visits");
   progress.see({ ...frame("birlfr", 3), iterations: 400 });
   assert.equal(progress.limit, 400);
+});
+
+test("of a run whose frames nobody looks at it is known how far it is", () => {
+  const progress = queued();
+  progress.see({ learner: "meirl", iteration: 250, iterations: 500 });
+  assert.equal(progress.status, "running");
+  assert.equal(progress.share, 0.25);
+  progress.end("done");
+  assert.equal(progress.share, 1);
+});
+
+test("who looks at another's run is not told it were theirs", () => {
+  const learners = { meirl: { outcome: "converged", gap: 0 } };
+  const progress = new RunProgress({ status: "done", reason: null, learners }, LEARNERS, false);
+  assert.equal(progress.sentence, "MEIRL has learned from the player’s play.");
+});
+
+test("a run that was deleted elsewhere is said to be gone", () => {
+  const progress = queued();
+  progress.end("deleted");
+  assert.ok(progress.isOver);
+  assert.match(progress.sentence, /was deleted/);
 });

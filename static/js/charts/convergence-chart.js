@@ -1,5 +1,5 @@
 /**
- * The convergence chart: the gap (log scale) or the log-likelihood of each learner by iteration, in the learner's hue and
+ * A convergence chart: the gap (log scale) or the log-likelihood of each learner by iteration, in the learner's hue and
  * with its marker shape; a vertical line marks the iteration on the boards. A click or drag on the plot moves it there.
  * @import {FrameStore} from "#js/learning/frame-store.js"
  */
@@ -22,19 +22,20 @@ export class ConvergenceChart {
   #learners;
   #onPick;
   /** @type {Measure} */
-  #measure = "gap";
+  #measure;
   #last = 1;
   #position = 0;
 
   /**
    * @param {HTMLElement} box reserves the size
    * @param {FrameStore} store
-   * @param {{ learners: string[], onPick: (iteration: number) => void, signal: AbortSignal }} options
+   * @param {{ learners: string[], measure: Measure, onPick: (iteration: number) => void, signal: AbortSignal }} options
    */
-  constructor(box, store, { learners, onPick, signal }) {
+  constructor(box, store, { learners, measure, onPick, signal }) {
     this.#box = box;
     this.#store = store;
     this.#learners = learners;
+    this.#measure = measure;
     this.#onPick = onPick;
     this.#rebuild();
     const resizes = new ResizeObserver(() => this.#plot?.setSize(this.#size()));
@@ -51,12 +52,6 @@ export class ConvergenceChart {
     this.#store = store;
   }
 
-  /** @param {Measure} measure */
-  show(measure) {
-    this.#measure = measure;
-    this.#rebuild();
-  }
-
   /**
    * @param {number} position iteration on the boards
    * @param {number} last right end of the axis
@@ -69,6 +64,7 @@ export class ConvergenceChart {
 
   /** @param {number} position iteration on the boards */
   moveTo(position) {
+    if (position === this.#position) return;
     this.#position = position;
     this.#plot?.redraw(false, false);
   }

@@ -9,31 +9,37 @@ import { listed, significant } from "#js/charts/figures.js";
 
 const MOST_ROWS = 12;
 
-const WORDS = {
-  gap: {
-    title: "Gap to your play",
-    name: "Gap in visits",
-    help:
-      "The gap is the largest difference, over all squares, between how often the learner expects to come by and how often you did, " +
-      "weighted by your order. At zero the learner spends its time exactly as your successes did.",
-  },
-  log_likelihood: {
-    title: "Log-likelihood of your successes",
-    name: "Log-likelihood",
-    help: "How probable your successes are under the learned reward, as a logarithm: the closer to zero, the better it explains them.",
-  },
-};
+/** @param {boolean} isOwn false: somebody else played */
+function words(isOwn) {
+  const [your, you] = isOwn ? ["your", "you"] : ["the player’s", "the player"];
+  return {
+    gap: {
+      title: `Gap to ${your} play (norm of the gradient)`,
+      name: "Gap in visits",
+      help:
+        `The gap is the largest difference, over all squares, between how often the learner expects to come by and how often ${you} did, ` +
+        `weighted by ${your} order: ‖μ^π − μ̃‖∞, the size of the gradient that is followed. At zero the learner spends its time exactly as ${your} successes did.`,
+    },
+    log_likelihood: {
+      title: `Log-likelihood of ${your} successes`,
+      name: "Log-likelihood",
+      help: `How probable ${your} successes are under the learned reward, as a logarithm: the closer to zero, the better it explains them.`,
+    },
+  };
+}
 
-/** @param {Measure} measure */
-export const measureTitle = (measure) => WORDS[measure].title;
+/** @param {Measure} measure @param {boolean} isOwn */
+export const measureTitle = (measure, isOwn) => words(isOwn)[measure].title;
 
 /**
  * @param {Measure} measure
  * @param {Pick<LearnerInfo, "title" | "seeks_visits">[]} learners those on the chart
+ * @param {boolean} [isOwn]
  */
-export function measureHelp(measure, learners) {
+export function measureHelp(measure, learners, isOwn = true) {
+  const { help } = words(isOwn)[measure];
   const others = learners.filter((learner) => !learner.seeks_visits).map(({ title }) => title);
-  return others.length > 0 ? `${WORDS[measure].help} ${aboutOthers(measure, others)}` : WORDS[measure].help;
+  return others.length > 0 ? `${help} ${aboutOthers(measure, others)}` : help;
 }
 
 /**
@@ -61,7 +67,7 @@ export function chartInWords(store, learners, measure) {
     const last = store.latest(name);
     return `${title} from ${significant(first?.[measure])} at iteration ${first?.iteration} to ${significant(last?.[measure])} at ${last?.iteration}`;
   });
-  return `${WORDS[measure].name} by iteration${scale}: ${lines.join("; ")}.`;
+  return `${words(true)[measure].name} by iteration${scale}: ${lines.join("; ")}.`;
 }
 
 /**
@@ -72,6 +78,7 @@ export function chartInWords(store, learners, measure) {
  */
 export function figuresTable(store, learners, measure) {
   const table = document.createElement("table");
+  table.createCaption().textContent = words(true)[measure].name;
   const head = table.createTHead().insertRow();
   for (const text of ["Iteration", ...learners.map(({ title }) => title)]) {
     const cell = document.createElement("th");

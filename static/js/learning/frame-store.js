@@ -3,12 +3,16 @@
  * the place of its twin, so replays do no harm; frames may come in any order.
  * @import {Frame, LearnerInfo} from "#js/learning/types.js"
  */
+import { largestSize } from "#js/learning/visits.js";
 
 /** @typedef {{ frames: Frame[], largest: number }} Track one learner's frames by rising iteration; the largest |reward| */
 
 export class FrameStore {
   /** @type {Map<string, Track>} */
   #tracks = new Map();
+
+  /** Rises with every frame that is added. */
+  version = 0;
 
   /** The iterations any learner recorded, rising. */
   get iterations() {
@@ -33,6 +37,7 @@ export class FrameStore {
     const isTwin = track.frames[place]?.iteration === frame.iteration;
     track.frames.splice(place, isTwin ? 1 : 0, frame);
     track.largest = Math.max(track.largest, largestSize(frame.reward));
+    this.version += 1;
   }
 
   /**
@@ -105,11 +110,4 @@ function firstAtOrAfter(frames, iteration) {
     else high = middle;
   }
   return low;
-}
-
-/** @param {number[]} values */
-function largestSize(values) {
-  let largest = 0;
-  for (const value of values) if (Number.isFinite(value)) largest = Math.max(largest, Math.abs(value));
-  return largest;
 }

@@ -3,29 +3,34 @@
  * @import {Frame, LearnerInfo, World} from "#js/learning/types.js"
  * @import {IrlBoard} from "#js/elements/irl-board.js"
  */
-import { figure } from "#js/charts/figures.js";
+import { figure, significant } from "#js/charts/figures.js";
 import { marker } from "#js/charts/marker.js";
+import { differenceOf, largestSize } from "#js/learning/visits.js";
+import { saveMenu } from "#js/pictures/save-menu.js";
 
-/** @typedef {{ arrows: boolean, visits: boolean, numbers: boolean }} Shown */
+/** @typedef {"none" | "learned" | "yours" | "difference"} Visits */
+/** @typedef {{ arrows: boolean, visits: Visits, numbers: boolean }} Layers what the boards show */
 
 export class LearnerPanel {
   /** @type {Frame | null} */
   #frame = null;
-  #largest = 0;
   #shown = "";
 
   /**
    * @param {HTMLTemplateElement} template
    * @param {LearnerInfo} learner
-   * @param {World} world
-   * @param {boolean[]} unknown squares that no demonstration this learner uses came to
+   * @param {object} from
+   * @param {World} from.world
+   * @param {boolean[]} from.unknown squares that no demonstration this learner uses came to
+   * @param {number[]} from.played   how often the demonstrations it draws near to came to each square
    */
-  constructor(template, learner, world, unknown) {
+  constructor(template, learner, { world, unknown, played }) {
     const copy = document.importNode(template.content, true);
     this.element = /** @type {HTMLElement} */ (copy.firstElementChild);
     this.learner = learner;
     this.world = world;
     this.unknown = unknown;
+    this.played = played;
     this.blank = new Array(world.rows * world.cols).fill(0);
     this.element.dataset.who = learner.name;
     this.element.dataset.learner = learner.name;
@@ -33,6 +38,9 @@ export class LearnerPanel {
     this.#part("title").textContent = learner.title;
     this.checkbox.value = learner.name;
     this.board.world = world;
+    this.#part("save").append(
+      saveMenu(this.board, { title: () => this.#titleOfPicture, name: `irlfr-learned-${learner.name}` }),
+    );
     this.clear();
   }
 
@@ -49,11 +57,14 @@ export class LearnerPanel {
     this.#frame = null;
     this.#shown = "";
     this.element.dataset.stage = "idle";
+    delete this.element.dataset.outcome;
+    delete this.element.dataset.iteration;
     const { missing, title } = this.learner;
     this.#part("cover").textContent = missing ?? usesInWords(this.learner);
     this.board.label = `Board of ${title}, nothing learned yet.`;
     this.board.view = { values: this.blank, scale: [-1, 1], unknown: this.unknown };
-    this.#scale(0);
+    this.#legend("loses", "earns");
+    this.#part("save").hidden = true;
     this.progress({ stage: "idle", share: 0, line: "", outcome: "" });
   }
 
@@ -63,50 +74,87 @@ export class LearnerPanel {
     if (this.element.dataset.stage === "idle") this.clear();
   }
 
-  /** @param {{ stage: string, share: number, line: string, outcome: string }} state */
-  progress({ stage, share, line, outcome }) {
+  /** @param {{ stage: string, share: number, line: string, outcome: string, ending?: string | null }} state */
+  progress({ stage, share, line, outcome, ending = null }) {
     this.element.dataset.stage = stage;
+    if (ending) this.element.dataset.outcome = ending;
     const bar = /** @type {HTMLProgressElement} */ (this.element.querySelector("progress"));
     bar.value = share;
     bar.setAttribute("aria-label", `${this.learner.title} has learned`);
-    this.#part("line").textContent = stage === "waiting" ? "" : line;
-    this.#part("outcome").textContent = outcome;
-    if (stage === "waiting") this.#part("cover").textContent = line;
+    this.#say("line", stage === "waiting" ? "" : line);
+    this.#say("outcome", outcome);
+    if (stage === "waiting") this.#say("cover", line);
   }
 
   /**
    * @param {Frame} frame
    * @param {number} largest |reward| at the ends of the colour scale
-   * @param {Shown} shown
+   * @param {Layers} layers
    */
-  show(frame, largest, shown) {
-    const key = JSON.stringify(shown);
-    if (frame === this.#frame && largest === this.#largest && key === this.#shown) return;
-    if (largest !== this.#largest) this.#scale(largest);
-    [this.#frame, this.#largest, this.#shown] = [frame, largest, key];
+  show(frame, largest, layers) {
+    const key = `${layers.arrows} ${layers.visits} ${layers.numbers} ${largest}`;
+    if (frame === this.#frame && key === this.#shown) return;
+    [this.#frame, this.#shown] = [frame, key];
     this.element.dataset.iteration = String(frame.iteration);
+    this.#part("save").hidden = false;
+    const painted = layers.visits === "difference" ? this.#difference(frame) : this.#reward(frame, largest);
     this.board.view = {
-      values: frame.reward,
-      scale: [-(largest || 1), largest || 1],
-      numbers: shown.numbers,
-      arrows: shown.arrows ? frame.policy : null,
-      visits: shown.visits ? frame.visitation : null,
+      ...painted,
+      numbers: layers.numbers,
+      arrows: layers.arrows ? frame.policy : null,
+      visits: this.#visits(frame, layers.visits),
       unknown: this.unknown,
     };
     this.board.label = describe(this.learner, frame, this.world);
   }
 
-  /** @param {number} largest */
-  #scale(largest) {
-    this.#largest = largest;
-    this.#part("lowest").textContent = largest ? figure(-largest) : "loses";
-    this.#part("highest").textContent = largest ? `+${figure(largest)}` : "earns";
+  get #titleOfPicture() {
+    const { title } = this.learner;
+    return this.#frame ? `What ${title} learned, iteration ${this.#frame.iteration}` : title;
+  }
+
+  /** @param {Frame} frame @param {number} largest */
+  #reward(frame, largest) {
+    if (largest) this.#legend(figure(-largest), `+${figure(largest)}`);
+    else this.#legend("0", "0");
+    return { values: frame.reward, scale: symmetric(largest) };
+  }
+
+  /** Where its policy comes more often than the attempts did (blue), and where less. @param {Frame} frame */
+  #difference(frame) {
+    const values = differenceOf(frame.visitation, this.played);
+    const largest = largestSize(values);
+    this.#legend(`${significant(-largest)} visits`, `+${significant(largest)}`);
+    return { values, scale: symmetric(largest) };
+  }
+
+  /** @param {Frame} frame @param {Visits} visits */
+  #visits(frame, visits) {
+    if (visits === "learned") return frame.visitation;
+    return visits === "yours" ? this.played : null;
+  }
+
+  /** @param {string} lowest @param {string} highest */
+  #legend(lowest, highest) {
+    this.#say("lowest", lowest);
+    this.#say("highest", highest);
+  }
+
+  /** @param {string} name @param {string} text */
+  #say(name, text) {
+    const part = this.#part(name);
+    if (part.textContent !== text) part.textContent = text;
   }
 
   /** @param {string} name */
   #part(name) {
     return /** @type {HTMLElement} */ (this.element.querySelector(`[data-part="${name}"]`));
   }
+}
+
+/** @param {number} largest @returns {[number, number]} */
+function symmetric(largest) {
+  return [-(largest || 1), largest || 1];
 }
 
 /** @param {LearnerInfo} learner */

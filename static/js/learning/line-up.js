@@ -4,8 +4,12 @@
  * @import {LearnerInfo, LearnPageData} from "#js/learning/types.js"
  */
 import { marker } from "#js/charts/marker.js";
+import { columnsFor } from "#js/learning/columns.js";
 import { LearnerPanel } from "#js/learning/learner-panel.js";
 import { untouched } from "#js/learning/material.js";
+import { visitsOfAttempts } from "#js/learning/visits.js";
+
+export { columnsFor };
 
 export class LineUp {
   #root;
@@ -44,6 +48,15 @@ export class LineUp {
   /** The learners that have a board. */
   get learners() {
     return this.#panels.map((panel) => panel.learner);
+  }
+
+  /** Tick exactly these, as far as they can learn. @param {string[]} names */
+  choose(names) {
+    for (const name of names) this.#join(name);
+    for (const { name, missing } of this.#data.learners) this.#tick(name, names.includes(name) && missing === null);
+    for (const [name, line] of this.#lines) {
+      if (!names.includes(name) && !(name in (this.#data.run?.learners ?? {}))) this.#leave(name, line, false);
+    }
   }
 
   /** Empty boards, and the learners of a run ticked. @param {string[]} names */
@@ -113,12 +126,12 @@ export class LineUp {
     if (line) box(line).checked = isChosen;
   }
 
-  /** Boards beside one's own play, in rows of equal length, and the key of the chart. */
+  /** Boards beside the play and the true reward, in rows of equal length, and the key of the charts. */
   #place() {
-    const own = /** @type {HTMLElement} */ (this.#root.querySelector(".agent-panel--own"));
-    const boards = /** @type {HTMLElement} */ (own.parentElement);
-    boards.replaceChildren(own, ...this.#panels.map((panel) => panel.element));
-    boards.style.setProperty("--columns", String(columnsFor(boards.childElementCount)));
+    const given = [...this.#root.querySelectorAll(".agent-panel--given")];
+    const boards = this.#part("boards");
+    boards.replaceChildren(...given, ...this.#panels.map((panel) => panel.element));
+    boards.style.setProperty("--columns", String(columnsFor(boards.childElementCount, 7)));
     const key = this.learners.map(({ name, title }) => {
       const item = document.createElement("li");
       item.append(marker(name), title);
@@ -129,8 +142,12 @@ export class LineUp {
 
   /** @param {LearnerInfo} learner */
   #panel(learner) {
-    const { world, demonstrations } = this.#data;
-    return new LearnerPanel(this.#template("learner-panel"), learner, world, untouched(world, demonstrations, learner));
+    const { world, demonstrations, rankings } = this.#data;
+    return new LearnerPanel(this.#template("learner-panel"), learner, {
+      world,
+      unknown: untouched(world, demonstrations, learner),
+      played: visitsOfAttempts(world, demonstrations, rankings, learner),
+    });
   }
 
   /** @param {LearnerInfo} learner */
@@ -161,11 +178,6 @@ export class LineUp {
   #part(name) {
     return part(this.#root, name);
   }
-}
-
-/** Rows of at most `most` and of equal length, or nearly. @param {number} count @param {number} [most] */
-export function columnsFor(count, most = 6) {
-  return Math.ceil(count / Math.max(1, Math.ceil(count / most)));
 }
 
 /** What it does, or what it misses. @param {HTMLElement} line @param {LearnerInfo} learner */

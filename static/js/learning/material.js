@@ -39,16 +39,17 @@ export function untouched(world, demonstrations, learner) {
 }
 
 /**
- * "3 successes and 3 failures, both in your order".
+ * "To learn from: 3 successes and 3 failures, in your order."
  * @param {Demonstration[]} demonstrations
  * @param {Rankings} rankings
  */
 export function describeMaterial(demonstrations, rankings) {
   const successes = keptOf(demonstrations, "success");
   const failures = keptOf(demonstrations, "failure");
-  if (successes.length + failures.length === 0) return "Nothing to learn from yet.";
+  if (successes.length + failures.length === 0)
+    return "There is nothing to learn from yet: play first, then put your attempts in order.";
   const counts = `${plural(successes.length, "success", "successes")} and ${plural(failures.length, "failure")}`;
-  return `${counts}, ${orderInWords(successes, failures, rankings)}.`;
+  return `To learn from: ${counts}, ${orderInWords(successes, failures, rankings)}.`;
 }
 
 /**

@@ -1,8 +1,9 @@
 /**
  * How far a run is, in words: one line a learner and one for all of them.
- * @import {Frame, LearnerInfo, Result, Run, RunStatus} from "#js/learning/types.js"
+ * @import {Frame, LearnerInfo, Result, Run, RunStatus, WorkerState} from "#js/learning/types.js"
  */
 import { listed, significant } from "#js/charts/figures.js";
+import { durationInWords, waitingInWords } from "#js/learning/run-words.js";
 import { plural } from "#js/lib/format.js";
 
 /** @typedef {"waiting" | "learning" | "learned" | "ended"} Stage */
@@ -13,14 +14,21 @@ const ORDINALS = ["first", "second", "third", "fourth", "fifth", "sixth", "seven
 
 /** @typedef {Pick<LearnerInfo, "name" | "title" | "family" | "seeks_visits">} Known */
 
+/** How far a learner is; all there is of a run whose frames nobody looks at. @typedef {Pick<Frame, "learner" | "iteration" | "iterations"> & Partial<Frame>} Step */
+
 export class RunProgress {
-  /** @type {Map<string, Frame>} */
+  /** @type {Map<string, Step>} */
   #latest = new Map();
   /** @type {Map<string, Result>} */
   #results = new Map();
-  /** @type {RunStatus} */
+  /** @type {RunStatus | "deleted"} */
   #status;
   #reason = "";
+  /** @type {number | null | undefined} */
+  #ahead;
+  /** @type {WorkerState | undefined} */
+  #worker;
+  #whose;
   #nLeftOut = 0;
   /** @type {string[]} */
   #learners;
@@ -28,12 +36,15 @@ export class RunProgress {
   #known;
 
   /**
-   * @param {Pick<Run, "status" | "reason" | "learners">} run
+   * @param {Pick<Run, "status" | "reason" | "learners" | "ahead" | "worker">} run
    * @param {Known[]} learners all there are
+   * @param {boolean} [isOwn] false: somebody else played
    */
-  constructor(run, learners) {
+  constructor(run, learners, isOwn = true) {
     this.#status = run.status;
     this.#reason = run.reason ?? "";
+    this.#whose = isOwn ? "your" : "the player’s";
+    this.wait(run);
     this.#learners = Object.keys(run.learners);
     this.#known = new Map(learners.map((learner) => [learner.name, learner]));
     for (const [learner, result] of Object.entries(run.learners)) if (result.outcome) this.settle(learner, result);
@@ -52,10 +63,31 @@ export class RunProgress {
     return Math.max(0, ...[...this.#latest.values()].map(({ iterations }) => iterations));
   }
 
-  /** @param {Frame} frame */
-  see(frame) {
-    this.#latest.set(frame.learner, frame);
+  /** How many runs come before it while it waits; null when it does not. */
+  get ahead() {
+    return this.#ahead;
+  }
+
+  /** What the workers do. */
+  get worker() {
+    return this.#worker;
+  }
+
+  /** @param {Step} step a frame, or only how far a learner is */
+  see(step) {
+    this.#latest.set(step.learner, step);
+    this.start();
+  }
+
+  /** A worker has taken it. */
+  start() {
     if (this.#status === "queued") this.#status = "running";
+  }
+
+  /** @param {{ ahead?: number | null, worker?: WorkerState }} waiting */
+  wait({ ahead, worker }) {
+    this.#ahead = ahead;
+    this.#worker = worker ?? this.#worker;
   }
 
   /**
@@ -68,7 +100,7 @@ export class RunProgress {
   }
 
   /**
-   * @param {"done" | "failed" | "cancelled"} status
+   * @param {RunStatus | "deleted"} status
    * @param {string} [reason]
    */
   end(status, reason = "") {
@@ -96,18 +128,23 @@ export class RunProgress {
     return frame ? Math.min(1, frame.iteration / Math.max(1, frame.iterations)) : 0;
   }
 
+  /** The share of all learners' iterations that lies behind, 0…1. */
+  get share() {
+    if (this.#status === "done") return 1;
+    const shares = this.#learners.map((learner) => this.shareOf(learner));
+    return shares.reduce((sum, share) => sum + share, 0) / Math.max(1, shares.length);
+  }
+
   /**
    * @param {string} learner
-   * @param {Frame | null} [frame] the frame on the board; the latest when left out
+   * @param {Step | null} [frame] the frame on the board; the latest when left out
    */
   sentenceOf(learner, frame = this.#latest.get(learner) ?? null) {
     const stage = this.stageOf(learner);
-    if (frame && frame.iterations > 1)
-      return `iteration ${frame.iteration} of ${frame.iterations} · ${gapInWords(frame.gap)}`;
-    if (frame) return gapInWords(frame.gap);
-    if (stage === "learned") return gapInWords(this.#results.get(learner)?.gap ?? Number.NaN);
+    if (frame) return [...howFarInWords(frame), gapInWords(frame.gap)].join(" · ");
+    if (stage === "learned") return gapInWords(this.#results.get(learner)?.gap);
     if (stage === "ended") return "not reached";
-    return this.#status === "queued" ? "waiting for a free worker" : "waiting its turn";
+    return this.#status === "queued" ? "waiting" : "waiting its turn";
   }
 
   /**
@@ -118,17 +155,24 @@ export class RunProgress {
     return this.#results.get(learner)?.sentence ?? "";
   }
 
+  /** @param {string} learner */
+  endingOf(learner) {
+    return this.#results.get(learner)?.outcome ?? null;
+  }
+
   /** The whole run in one sentence. */
   get sentence() {
     switch (this.#status) {
       case "queued":
-        return "Queued: learning starts as soon as a worker is free.";
+        return waitingInWords(this.#ahead, this.#worker);
       case "running":
         return this.#runningSentence();
       case "done":
         return this.#doneSentence();
       case "cancelled":
         return `Cancelled${this.#howFar()}. What was learned up to there stays on the boards.`;
+      case "deleted":
+        return "This run was deleted. What you see is all that is left of it.";
       default:
         return `The run failed: ${this.#reason || "no reason was given"}`;
     }
@@ -147,8 +191,11 @@ export class RunProgress {
     const astray = this.#learners.filter((learner) => this.#isAstray(learner));
     if (diverged.length === 0 && astray.length === 0) return `${this.#everybody}.${this.#leftOut}`;
     if (diverged.length === 0)
-      return `The run is done. ${listed(astray.map((learner) => this.#titleOf(learner)))} ended far from your play.${this.#leftOut}`;
-    return `The run is done. ${listed(diverged.map((learner) => this.#titleOf(learner)))} ran away instead of settling.`;
+      return `The run is done. ${listed(astray.map((learner) => this.#titleOf(learner)))} ended far from ${this.#whose} play.${this.#leftOut}`;
+    return (
+      `The run is done. ${listed(diverged.map((learner) => this.#titleOf(learner)))} ran away instead of settling: ` +
+      "shown are the last weights that were finite numbers. A smaller learning rate α or a larger λ_min keeps it in hand."
+    );
   }
 
   /** Ended far from the play, although it sought to come near. @param {string} learner */
@@ -164,7 +211,7 @@ export class RunProgress {
     // Some baselines learn nothing at all.
     if (this.#learners.some((learner) => this.#known.get(learner)?.family === "baseline"))
       return count === 1 ? `${one} is done` : `${who} are done`;
-    return count === 1 ? `${one} has learned from your play` : `${who} have learned from your play`;
+    return count === 1 ? `${one} has learned from ${this.#whose} play` : `${who} have learned from ${this.#whose} play`;
   }
 
   get #leftOut() {
@@ -184,8 +231,17 @@ export class RunProgress {
   }
 }
 
-/** @param {number} gap */
-export function gapInWords(gap) {
-  if (!Number.isFinite(gap)) return "the gap to your play has no bound";
-  return `the gap to your play is ${significant(gap)} visits`;
+/** @param {number | null | undefined} gap */
+function gapInWords(gap) {
+  if (gap === undefined) return "learning";
+  if (gap === null || !Number.isFinite(gap)) return "the gap has no bound";
+  return `gap ${significant(gap)} visits`;
+}
+
+/** @param {Step} frame */
+function howFarInWords({ iteration, iterations, compute_ms }) {
+  const words = [];
+  if (iterations > 1) words.push(`iteration ${iteration} of ${iterations}`);
+  if (compute_ms !== undefined && iteration > 0) words.push(durationInWords(compute_ms));
+  return words;
 }

@@ -32,7 +32,7 @@ export class SettingsForm {
    * @returns {{ settings: Record<string, number | string>, seed: number | null } | null}
    */
   read() {
-    /** @type {Record<string, number | string>} */
+    /** @type {Record<string, number | string>} what differs from the defaults */
     const settings = {};
     let isSound = true;
     for (const setting of this.#settings) {
@@ -45,6 +45,27 @@ export class SettingsForm {
     this.complain("seed", seed.problem);
     if (seed.problem) isSound = false;
     return isSound ? { settings, seed: seed.value === "" ? null : Number(seed.value) } : null;
+  }
+
+  /** What differs from the defaults as it stands, without a word about what is wrong; null where something is. */
+  peek() {
+    const read = this.#settings.map((setting) => [setting, readSetting(setting, this.#control(setting.name).value)]);
+    const differing = /** @type {[SettingInfo, ReturnType<typeof readSetting>][]} */ (read).filter(
+      ([setting, { value }]) => value !== setting.default,
+    );
+    if (/** @type {any[]} */ (read).some(([, { problem }]) => problem)) return null;
+    return Object.fromEntries(differing.map(([{ name }, { value }]) => [name, value]));
+  }
+
+  /**
+   * Put these in; what is not among them gets its default. The seed stays.
+   * @param {Record<string, number | string>} values
+   */
+  fill(values) {
+    for (const setting of this.#settings) {
+      this.#control(setting.name).value = String(values[setting.name] ?? setting.default);
+      this.complain(setting.name, "");
+    }
   }
 
   /**

@@ -12,6 +12,8 @@
  * @property {number[]} reward (S,)
  * @property {number[][]} policy (S, 4)
  * @property {number[]} visitation (S,)
+ * @property {number} [compute_ms] how long the learner itself has computed; runs of older versions lack it
+ * @property {number} [number] that of the event
  *
  * @typedef {object} Result how a learner ended
  * @property {"converged" | "iteration_limit" | "diverged" | "stopped" | null} outcome null: not there yet
@@ -25,6 +27,7 @@
  * @property {number} [n_left_out]
  * @property {number[] | null} [weights] (K,), null where they are the reward
  * @property {Posterior | null} [posterior]
+ * @property {number} [compute_ms]
  *
  * @typedef {object} Posterior what a Bayesian learner does not know
  * @property {number} level the probability of its intervals
@@ -46,6 +49,18 @@
  * @property {Record<string, Result>} learners
  * @property {string} created_at
  * @property {number} [n_left_out]
+ * @property {number | null} [ahead] how many runs come before it; null unless queued
+ * @property {WorkerState} [worker]
+ * @property {boolean} [is_own]
+ *
+ * @typedef {"ready" | "warming" | "none"} WorkerState
+ *
+ * @typedef {object} Preset learners and settings that go together
+ * @property {string} name
+ * @property {string} title
+ * @property {string[]} learners
+ * @property {Record<string, number | string>} settings what differs from the defaults
+ * @property {string} sentence
  *
  * @typedef {object} LearnerInfo
  * @property {string} name
@@ -101,6 +116,9 @@
  * @property {Run | null} run
  * @property {LearnerInfo[]} learners
  * @property {SettingInfo[]} settings
+ * @property {Preset[]} [presets]
+ * @property {boolean} [is_own] false: opened by a shared link; demonstrations and rankings are the run's snapshot
+ * @property {string | null} [key] that of the shared link
  */
 
 export {};
