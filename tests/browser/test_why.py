@@ -50,8 +50,9 @@ def check_which_mattered(page: Page, client: walk.ContextClient, run_id: str) ->
     """By keyboard; the rows are the API's, the greatest change first. Returns the first."""
     part(page, "mattered").locator("> summary").focus()
     page.keyboard.press("Enter")
+    answered(page, "mattered")
     rows = page.locator(".why-row")
-    expect(rows).to_have_count(6, timeout=ANSWERED_MS)
+    expect(rows).to_have_count(6)
     found = {one["id"]: one for one in client.get(f"/runs/{run_id}/influence?learner=irlfr")["influences"]}
     shown = [found[row.get_attribute("data-id") or ""] for row in rows.all()]
     changes = [one["policy_change"] for one in shown]
@@ -123,7 +124,7 @@ def check_trouble_is_said_and_passes(page: Page) -> None:
 def check_what_is_not_known(page: Page, client: walk.ContextClient, run_id: str) -> None:
     part(page, "doubt").locator("> summary").click()
     method = part(page, "doubt").locator('[data-why="method"]')
-    expect(method).to_be_visible(timeout=ANSWERED_MS)
+    answered(page, "doubt")
     found = client.get(f"/runs/{run_id}/uncertainty?learner=irlfr")
     expect(method).to_contain_text(f"learning again {found['n_draws']} times")
     expect(part(page, "doubt").locator('[data-why="interval"]')).to_have_text(found["sentence"])
@@ -159,6 +160,17 @@ def check_a_link_shows_the_same(browser: Browser, page: Page, client: walk.Conte
         expect(theirs.locator('[data-why="chosen"]')).to_have_text("What if the player's 2nd success …")
         expect(sentence(theirs, "mattered")).to_contain_text("he player's")
         assert theirs.url.endswith(f"?key={key}#{fragment}")
+
+
+def answered(page: Page, name: str) -> None:
+    """A machine that does much else may say that it takes too long; whoever asks again is answered."""
+    for _ in range(5):
+        expect(part(page, name)).to_have_attribute("data-asking", "false", timeout=ANSWERED_MS)
+        again = part(page, name).get_by_role("button", name="Ask again")
+        if not again.is_visible():
+            break
+        again.click()
+    expect(sentence(page, name)).not_to_be_empty()
 
 
 def is_question(request: Request) -> bool:

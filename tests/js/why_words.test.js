@@ -39,8 +39,8 @@ const snapshot = {
   rankings: { success: { order: [["b"], ["a", "c"]] }, failure: { order: [["f"], ["g"]] } },
 };
 const attempts = attemptsOf(snapshot);
-const irlfr = { title: "IRLFR", uses_failures: true, uses_ranking: true, takes_anything: false };
-const meirl = { title: "MEIRL", uses_failures: false, uses_ranking: false, takes_anything: false };
+const irlfr = { title: "IRLFR", uses_failures: true, uses_ranking: true };
+const meirl = { title: "MEIRL", uses_failures: false, uses_ranking: false };
 const about = { who: irlfr, whose: "your", world, leavesOut: true };
 
 const influence = (id, more = {}) => ({
@@ -63,7 +63,7 @@ const answer = (change, more = {}) => ({
   expected_return: 3.1,
   ...more,
 });
-const unchanged = { difference: { policy_change: 0, reward_change: 0, turned: [] }, expected_return: 5.2 };
+const unchanged = { difference: { policy_change: 2e-17, reward_change: 1e-16, turned: [] }, expected_return: 5.2 };
 
 test("attempts are called by their place", () => {
   assert.deepEqual(attempts.map(nameOf), ["1st success", "2nd success", "3rd success", "1st failure", "2nd failure"]);
@@ -118,13 +118,18 @@ test("what nothing can be learned without comes first, and the sentence says so"
 
 test("attempts that are alike matter alike, and attempts that change nothing are said to", () => {
   assert.equal(
-    mattersSentence([influence("a"), influence("c"), influence("b", nothing)], attempts, about),
+    mattersSentence(
+      [influence("a"), influence("c", { policy_change: 0.1 + 1e-16 }), influence("b", nothing)],
+      attempts,
+      about,
+    ),
     "Your 2nd success and 3rd success mattered most, and alike, to IRLFR: without any one of them, 3 of 8 arrows turn and it would earn 2.1 less.",
   );
   assert.equal(
     mattersSentence([influence("a", nothing), influence("b", nothing)], attempts, about),
     "None of your attempts matters to IRLFR alone: it learns the same without any one of them.",
   );
+  assert.equal(withoutSentence(influence("a", nothing), world), "Without it, nothing changes.");
   assert.equal(
     withoutSentence(influence("a", { ...nothing, reward_change: 0.01 }), world),
     "Without it, hardly anything changes.",

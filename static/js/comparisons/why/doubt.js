@@ -64,7 +64,7 @@ export class Doubt {
       ],
     });
     this.panel.part("interval").textContent = found.sentence;
-    this.panel.part("method").textContent = methodSentence(found);
+    this.panel.part("method").textContent = isSpread(found) ? methodSentence(found) : "";
     return doubtSentence(found, { who, world });
   }
 }

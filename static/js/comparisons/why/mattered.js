@@ -76,6 +76,7 @@ export class Mattered {
     part("facts").textContent = factsOf(attempt);
     part("words").textContent = withoutSentence(influence, world);
     part("bars").hidden = influence.policy_change === null;
+    part("try").hidden = influence.policy_change === null;
     part("policy").textContent = percent(influence.policy_change);
     part("earned").textContent = influence.return_change === null ? "–" : signed(influence.return_change);
     part("policy-bar").style.inlineSize = `${100 * share(influence.policy_change, largest.policy)}%`;

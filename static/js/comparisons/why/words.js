@@ -10,12 +10,14 @@ import { plural } from "#js/lib/format.js";
 
 /** Returns that differ by less look the same when they are written out. */
 const SMALLEST = 0.05;
+/** What is smaller is nothing: the same sums in another order. */
+const DUST = 1e-9;
 /** A share of the steps that is less than half a percent. */
 const SMALLEST_SHARE = 0.005;
 /** Draws of which fewer agree leave a square in doubt. */
 export const AGREEMENT = 0.75;
 
-/** @typedef {{ title: string, uses_failures: boolean, uses_ranking: boolean, takes_anything: boolean }} Who */
+/** @typedef {{ title: string, uses_failures: boolean, uses_ranking: boolean }} Who */
 /** Whose attempts they are: "your" to who made them, "the player's" to who came by a link. @typedef {"your" | "the player's"} Whose */
 
 /** "2nd success", "only failure". @param {Attempt} attempt */
@@ -58,7 +60,7 @@ export function mattersSentence(sorted, attempts, { who, whose, world }) {
   if (!first) return "There are no attempts to leave out.";
   const needed = sorted.filter((one) => one.policy_change === null);
   if (needed.length > 0) return neededSentence(namesOf(needed, attempts), { who, whose });
-  if (first.policy_change === 0 && first.reward_change === 0)
+  if (isNothing(first))
     return `None of ${whose} attempts matters to ${who.title} alone: it learns the same without any one of them.`;
   const alike = sorted.filter((one) => hasSameEffect(one, first));
   const without = `without ${alike.length > 1 ? "any one of them" : "it"}, ${withoutWords(first, world)}.`;
@@ -70,7 +72,11 @@ export function mattersSentence(sorted, attempts, { who, whose, world }) {
 
 /** @param {Influence} one @param {Influence} other */
 function hasSameEffect(one, other) {
-  return one.policy_change === other.policy_change && one.return_change === other.return_change;
+  const [policy, earned] = [
+    (one.policy_change ?? 0) - (other.policy_change ?? 0),
+    (one.return_change ?? 0) - (other.return_change ?? 0),
+  ];
+  return Math.abs(policy) <= DUST && Math.abs(earned) <= DUST;
 }
 
 /** @param {string[]} names @param {{ who: Who, whose: Whose }} about */
@@ -85,8 +91,15 @@ export function withoutSentence(influence, world) {
   return `Without it, ${withoutWords(influence, world)}.`;
 }
 
+/** @param {Pick<Influence, "policy_change" | "reward_change">} difference */
+function isNothing({ policy_change, reward_change }) {
+  return (policy_change ?? 0) <= DUST && (reward_change ?? 0) <= DUST;
+}
+
 /** @param {Influence} influence @param {World} world */
-function withoutWords({ turned, policy_change, return_change }, world) {
+function withoutWords(influence, world) {
+  if (isNothing(influence)) return "nothing changes";
+  const { turned, policy_change, return_change } = influence;
   const n = turned?.length ?? 0;
   const earns = return_change === null ? "" : earningWords("it", -return_change);
   if (n === 0 && Math.abs(return_change ?? 0) < SMALLEST && (policy_change ?? 0) < SMALLEST_SHARE)
@@ -115,8 +128,7 @@ export function whatIfSentence({ change, difference, before, expected_return }, 
   const { who, world } = about;
   const clause = conditionWords(change, attempts, about.whose);
   const delta = expected_return - before.expected_return;
-  if (difference.policy_change === 0 && difference.reward_change === 0)
-    return `${clause}, nothing changes${reasonWords(change, attempts, about)}`;
+  if (isNothing(difference)) return `${clause}, nothing changes${reasonWords(change, attempts, about)}`;
   const figures =
     Math.abs(delta) < SMALLEST
       ? `: ${figure(expected_return)}`
@@ -148,7 +160,7 @@ function reasonWords(change, attempts, { who, leavesOut }) {
   if ("swap" in change && first.tiedWith.includes(second?.id ?? "")) return ": they are tied.";
   if ("swap" in change && !who.uses_ranking) return `: ${who.title} does not look at the order.`;
   if ("swap" in change && second && isSameWalk(first, second)) return ": they are the same walk.";
-  const isLeftOut = leavesOut && !who.takes_anything && isFailure && first.demonstration.ending !== "goal";
+  const isLeftOut = leavesOut && isFailure && first.demonstration.ending !== "goal";
   return isLeftOut ? ": a failure that never reached the goal is left out at these settings." : ".";
 }
 
