@@ -19,10 +19,10 @@ const ARROWS = /** @type {Record<string, [number, number]>} */ ({
   ArrowDown: [1, 0],
   ArrowLeft: [0, -1],
 });
-/** What does something with keys by itself: controls, links, whatever scrolls or is moved with arrows. */
-const BUSY = "a, button, input, select, textarea, summary, [tabindex], [contenteditable]";
-/** Buttons and boxes have no use for arrows. */
-const IDLE_WITH_ARROWS = "button, input[type=checkbox], a";
+/** What moves, scrolls or is written into by keys keeps them all. */
+const KEEPS_ALL = "input[type=range], [tabindex], [contenteditable]";
+/** What is pressed with the space bar keeps that. */
+const IS_PRESSED = "a, button, input, summary";
 
 /** @param {KeyPlayer} player @param {AbortSignal} signal */
 export function listenForKeys(player, signal) {
@@ -53,8 +53,10 @@ function actionOf(player, event) {
   return letterOf(event) === "f" ? () => player.fillScreen() : null;
 }
 
-/** @param {KeyboardEvent} event */
-function isBusy({ target, key }) {
-  const control = target instanceof Element ? target.closest(BUSY) : null;
-  return control !== null && !(key in ARROWS && control.matches(IDLE_WITH_ARROWS));
+/** True where what has the focus has a use of its own for this key. @param {KeyboardEvent} event */
+function isBusy({ target, key, shiftKey }) {
+  if (!(target instanceof Element)) return false;
+  if (target.closest(KEEPS_ALL)) return true;
+  if (key in ARROWS) return !shiftKey && target.matches("input[type=radio]");
+  return key === " " && target.closest(IS_PRESSED) !== null;
 }
