@@ -13,6 +13,7 @@ from app.dependencies import DatabaseFromApp
 from app.learning import queries, service
 from app.learning.convert import describe_choice, describe_settings, snapshot_rankings, to_out, to_problem
 from app.learning.dependencies import RunFromPath, ShareKey
+from app.learning.presets import PRESETS
 from app.models import Run
 from app.pages import PathState, path_state, render
 from app.rankings.convert import rankings_out
@@ -32,7 +33,9 @@ class LearnPage:
     path: PathState = field(metadata={"help": "How far this visitor has come in this world."})
     world: dict[str, Any] = field(metadata={"help": "The world, as the API has it."})
     data: dict[str, Any] = field(
-        metadata={"help": "The page data: world, demonstrations, rankings, run, is_own, key, learners, settings."}
+        metadata={
+            "help": "The page data: world, demonstrations, rankings, run, is_own, key, learners, settings, presets."
+        }
     )
 
 
@@ -92,7 +95,12 @@ def _with_choice(
     session: Session, world: StoredWorld, visitor_id: str | None, data: dict[str, Any], problem: LearningProblem
 ) -> LearnPage:
     """Add what a page says of the world, the learners and the settings."""
-    data |= {"world": world.to_json(), "learners": describe_choice(problem), "settings": describe_settings()}
+    data |= {
+        "world": world.to_json(),
+        "learners": describe_choice(problem),
+        "settings": describe_settings(),
+        "presets": PRESETS,
+    }
     return LearnPage(path=path_state(session, visitor_id, world.id, "learn"), world=data["world"], data=data)
 
 
