@@ -9,13 +9,14 @@ from pathlib import Path
 for _library in ("OMP", "OPENBLAS", "MKL"):
     os.environ[f"{_library}_NUM_THREADS"] = "1"  # before NumPy is imported: one thread on both sides
 
-from bench import core, play, rank, web  # noqa: E402
+from bench import core, learn, play, rank, web  # noqa: E402
 from bench.measure import Figure  # noqa: E402
 
 PARTS: dict[str, Callable[[], Iterator[Figure]]] = {
     "core": core.measure,
     "play": play.measure,
     "rank": rank.measure,
+    "learn": learn.measure,
     "web": web.measure,
 }
 

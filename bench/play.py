@@ -10,7 +10,7 @@ import gzip
 import random
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -47,7 +47,7 @@ class Presses:
 
 
 def measure() -> Iterator[Figure]:
-    with tempfile.TemporaryDirectory() as name, _server(Path(name)) as server, _browser() as browser:
+    with tempfile.TemporaryDirectory() as name, a_server(Path(name)) as server, a_browser() as browser:
         if browser is None:
             reason = "Chromium cannot be started; name one by E2E_CHROMIUM"
             yield at_most("key to frame", [], target=TWO_FRAMES_MS, unit="ms", reference=reason)
@@ -60,9 +60,9 @@ def measure() -> Iterator[Figure]:
 
 def _measure_presses(browser: Browser, server: LiveServer, size: int) -> Iterator[Figure]:
     found = {
-        "no delay": _press_under(browser, server, size),
-        f"{LATENCY_MS} ms": _press_under(browser, server, size, latency_ms=LATENCY_MS),
-        "server stopped": _press_under(browser, server, size, is_server_stopped=True),
+        "no delay": presses_under(browser, server, size),
+        f"{LATENCY_MS} ms": presses_under(browser, server, size, latency_ms=LATENCY_MS),
+        "server stopped": presses_under(browser, server, size, is_server_stopped=True),
     }
     for network, presses in found.items():
         name = f"key to frame, {size}×{size}, {network}"
@@ -78,9 +78,10 @@ def _measure_presses(browser: Browser, server: LiveServer, size: int) -> Iterato
         yield at_most(name, [more], target=FRAME_MS, unit="ms", reference=f"no delay: {plain:.1f} ms")
 
 
-def _press_under(
+def presses_under(
     browser: Browser, server: LiveServer, size: int, *, latency_ms: int = 0, is_server_stopped: bool = False
 ) -> Presses:
+    """Play at random with so slow a network, or none."""
     with _page(browser, server) as page:
         page.add_init_script(path=HERE / "play_presses.js")
         page.goto(f"/?seed=5&rows={size}&cols={size}")
@@ -206,8 +207,9 @@ def percentile(values: list[float], share: float) -> float:
 
 
 @contextmanager
-def _server(folder: Path) -> Iterator[LiveServer]:
-    server = LiveServer(folder)
+def a_server(folder: Path, settings: Mapping[str, str] | None = None) -> Iterator[LiveServer]:
+    """The real server, until the end of the block."""
+    server = LiveServer(folder, settings)
     server.start()
     try:
         yield server
@@ -216,7 +218,8 @@ def _server(folder: Path) -> Iterator[LiveServer]:
 
 
 @contextmanager
-def _browser() -> Iterator[Browser | None]:
+def a_browser() -> Iterator[Browser | None]:
+    """A real browser, or None where there is none."""
     with sync_playwright() as playwright:
         try:
             browser = playwright.chromium.launch(executable_path=find_chromium(), args=CHROMIUM_FLAGS)
