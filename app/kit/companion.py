@@ -9,6 +9,7 @@ does.
 
 import asyncio
 import contextlib
+import logging
 import os
 import pickle
 import subprocess
@@ -20,6 +21,7 @@ from dataclasses import dataclass, field
 from typing import Any, TypeVar, TypeVarTuple
 from weakref import WeakValueDictionary
 
+logger = logging.getLogger(__name__)
 T = TypeVar("T")
 Arguments = TypeVarTuple("Arguments")
 
@@ -27,7 +29,7 @@ LIMIT_S = 10.0
 """The longest that a call may compute."""
 WARM_UP_LIMIT_S = 600.0
 """The longest that warming up may take: on a fresh installation everything has to be compiled."""
-PATIENCE_S = 30.0
+PATIENCE_S = 15.0
 """The longest that somebody waits for an answer, the wait for their turn included."""
 CLOSE_WITHIN_S = 2.0
 
@@ -134,7 +136,7 @@ class Companion:
         while self._wait_for_work():
             try:
                 process = self._awake()
-            except CompanionError as error:
+            except Exception as error:  # noqa: BLE001 - the keeper must not die of it
                 self._refuse_all(error)
                 continue
             call = self._next()
@@ -154,10 +156,14 @@ class Companion:
 
     def _awake(self) -> "_Process":
         """Return the running process, after starting it and warming it up if need be."""
-        if self._process is not None:
+        if self._process is not None and self._process.is_running:
             return self._process
+        self._end_process()
         self._is_wanted = False  # one that cannot start is tried again only when it is needed again
-        process = _Process(self._environment)
+        try:
+            process = _Process(self._environment)
+        except OSError as error:
+            raise Died(str(error)) from error
         with self._changed:
             self._process = process
             if self._is_closed:
@@ -196,14 +202,16 @@ class Companion:
         """Return what the function returns there, or raise what it raises; a process that failed is let go."""
         try:
             is_value, told = process.ask((function, arguments, self._expected), limit_s=limit_s)
-        except CompanionError:
+        except CompanionError as error:
+            if not self._is_closed:
+                logger.warning("The companion is gone: %s, %s", type(error).__name__, error)
             self._end_process()
             raise
         if is_value:
             return told
         raise Failed(told) if isinstance(told, str) else told
 
-    def _refuse_all(self, error: CompanionError) -> None:
+    def _refuse_all(self, error: Exception) -> None:
         with self._changed:
             waiting = [call for calls in self._waiting.values() for call in calls.values()]
             self._waiting.clear()
@@ -258,6 +266,11 @@ class _Process:
             stdout=subprocess.PIPE,
             env=os.environ | dict(environment),
         )
+
+    @property
+    def is_running(self) -> bool:
+        """Whether it is still there: the system may have ended it while nobody asked."""
+        return self._running.poll() is None
 
     def ask(self, call: object, *, limit_s: float) -> tuple[bool, Any]:
         """Return its answer. Raises Overdue or Died, after which it is of no more use."""

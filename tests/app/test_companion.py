@@ -86,6 +86,13 @@ def test_its_death_is_told_once_and_the_next_call_has_a_new_one(companion):
     assert ask(companion, os.getpid) != pid
 
 
+def test_one_that_died_while_nobody_asked_is_replaced_before_anybody_notices(companion):
+    pid = ask(companion, os.getpid)
+    companion._process.kill()
+    companion._process._running.wait()
+    assert ask(companion, os.getpid) != pid
+
+
 def test_a_call_that_computes_too_long_is_ended_and_the_next_one_answered(make_companion):
     hasty = make_companion(limit_s=0.2)
     with pytest.raises(Overdue):

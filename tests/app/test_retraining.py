@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from app.kit import companion
 from app.learning import worker
 from app.main import create_app
 from app.retraining import findings, schemas, service
@@ -30,7 +31,8 @@ def client(tmp_path_factory, migrated_database):
     settings = make_settings(tmp_path_factory.mktemp("retraining"))
     shutil.copy(migrated_database, settings.database_path)
     app = create_app(settings)
-    with open_client(app) as opened:
+    with pytest.MonkeyPatch.context() as patch, open_client(app) as opened:
+        patch.setattr(companion, "PATIENCE_S", 300.0)  # a machine may be slow
         wait_for_companion(app)
         yield opened
 
@@ -309,10 +311,10 @@ class TestFindings:
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="a call that waits for as long as the test likes needs a FIFO")
 def test_a_newer_preview_replaces_the_one_that_waits_and_a_death_is_told_once(client, played, tmp_path):
     world, orders, run = played
-    companion, answers = client.app.state.companion, {}
+    beside, answers = client.app.state.companion, {}
     os.mkfifo(tmp_path / "never")
     preview(client, world, groups(orders))
-    held = companion.submit(companion.line("somebody else", "read"), Path.read_text, (tmp_path / "never",))
+    held = beside.submit(beside.line("somebody else", "read"), Path.read_text, (tmp_path / "never",))
 
     def ask_soon(name, learner):
         def wait():
@@ -323,12 +325,12 @@ def test_a_newer_preview_replaces_the_one_that_waits_and_a_death_is_told_once(cl
         return asking
 
     older = ask_soon("older", "irlfr")
-    while not any("preview" in calls for calls in companion._waiting.values()):
+    while not any("preview" in calls for calls in beside._waiting.values()):
         time.sleep(0.001)
     newer = ask_soon("newer", "trex")
     older.join()
     refused(answers["older"], 409, "superseded", "newer")
-    companion._process.kill()
+    beside._process.kill()
     with pytest.raises(Exception, match="exit code"):
         held.result()
     newer.join()
