@@ -49,7 +49,9 @@ def test_a_shared_link_shows_others_the_same_learning_until_it_is_taken_back(
     page: Page, browser: Browser, base_url: str
 ) -> None:
     _, run_id = walk.prepared(page, base_url, seed=72)
-    n_frames = place(page).get_attribute("data-frames")
+    record = walk.ContextClient(page, base_url).get(f"/runs/{run_id}/frames")["frames"]
+    n_frames = len({(frame["learner"], frame["iteration"]) for frame in record})
+    expect(place(page)).to_have_attribute("data-frames", str(n_frames))
     page.locator('[data-action="share-run"]').click()
     expect(page.locator('[data-part="sharing"]')).to_be_visible()
     link = page.locator('[data-part="share-link"]').input_value()
@@ -94,7 +96,9 @@ def test_a_preset_sets_learners_and_settings_and_visits_show_the_difference(page
     reward = panel.locator('[data-part="highest"]').text_content()
     page.locator('input[name="visits"][value="difference"]').check(force=True)
     expect(page.locator('[data-part="colours"]')).to_have_text("visits: the learner’s minus yours")
-    expect(panel.locator('[data-part="highest"]')).to_contain_text("visits")
+    expect(panel.locator('[data-part="lowest"]')).to_contain_text("visits")
+    largest = (panel.locator('[data-part="highest"]').text_content() or "").removeprefix("+")
+    expect(panel.locator('[data-part="line"]')).to_contain_text(f"gap {largest} visits")
     page.locator('input[name="visits"][value="learned"]').check(force=True)
     expect(panel.locator('[data-part="highest"]')).to_have_text(str(reward))
 

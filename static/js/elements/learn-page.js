@@ -31,7 +31,7 @@ export class LearnPage extends HTMLElement {
   #head = new Head(this, this.#data, this.#boards.lineUp, this.#setUp);
   #charts = new Charts(this, this.#data);
   #playback = new Playback(this);
-  #sharing = new Sharing(this, (sentence) => this.#head.complain(sentence));
+  #sharing = new Sharing(this, this.#data.world, (sentence) => this.#head.complain(sentence));
   #beat = new Beat((now) => this.#paint(now));
   #runs = this.#newRuns();
   #list = new RunsList(this, this.#data, this.#runs);

@@ -29,7 +29,6 @@ export class SetUp {
     this.#form = new SettingsForm(this.#part("form"), data.settings, data.run?.settings ?? {});
     this.#missing = new Map(data.learners.map(({ name, missing }) => [name, missing]));
     this.#part("presets").replaceChildren(...this.#presets.map(presetButton));
-    this.#part("preset-row").hidden = this.#presets.length === 0;
     this.weigh();
   }
 

@@ -1,13 +1,15 @@
 /**
  * A link by which others see this run: made, copied, and taken back.
- * @import {Run} from "#js/learning/types.js"
+ * @import {Run, World} from "#js/learning/types.js"
  */
 import { announce } from "#js/lib/announce.js";
 import { ApiError, api } from "#js/lib/api.js";
 import { copyText } from "#js/lib/clipboard.js";
+import { byId } from "#js/lib/dom.js";
 
 export class Sharing {
   #root;
+  #worldAddress;
   #complain;
   /** @type {Run | null} */
   #run = null;
@@ -16,10 +18,12 @@ export class Sharing {
 
   /**
    * @param {HTMLElement} root
+   * @param {World} world
    * @param {(sentence: string) => void} complain
    */
-  constructor(root, complain) {
+  constructor(root, world, complain) {
     this.#root = root;
+    this.#worldAddress = `/worlds/${world.id}`;
     this.#complain = complain;
   }
 
@@ -34,7 +38,7 @@ export class Sharing {
 
   /** @param {Run | null} run that on the boards */
   paint(run) {
-    if (run?.id !== this.#run?.id) this.#show(null);
+    if (run?.id !== this.#run?.id || this.#frameShare.dataset.url === undefined) this.#show(null);
     this.#run = run;
     this.#part("share-run").hidden = run === null;
   }
@@ -90,9 +94,16 @@ export class Sharing {
   #show(key) {
     this.#key = key;
     this.#part("sharing").hidden = key === null;
+    // A run's own address opens nothing for others: "Share" at the top of the page gives the link, or else the world.
+    this.#frameShare.dataset.url = this.#worldAddress;
     if (key === null || !this.#run) return;
     const address = `/runs/${this.#run.id}?key=${encodeURIComponent(key)}`;
+    this.#frameShare.dataset.url = address;
     /** @type {HTMLInputElement} */ (this.#part("share-link")).value = new URL(address, location.href).href;
+  }
+
+  get #frameShare() {
+    return byId("share");
   }
 
   /** @param {string} sentence */
