@@ -100,6 +100,7 @@ def test_pictures(browser: Browser, base_url: str, screenshots: Path | None, dev
 
 def halfway(page: Page) -> None:
     """Everybody well on the way."""
+    page.locator('[data-action="start"]').click()
     page.locator('[data-action="forward"]').click(click_count=9)
 
 
