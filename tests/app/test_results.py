@@ -3,12 +3,16 @@
 import csv
 import io
 import json
+from contextlib import closing
 
 import pytest
 
+from app.db import Database
+from app.learning import worker
 from app.results.words import votes_needed
 from app.visitors import COOKIE
 from irl_core import LEARNERS
+from tests.app.test_learning import ask, played  # noqa: F401 - a fixture
 from tests.app.test_pages import island
 from tests.factories import make_world
 from tests.finished import finish_run, visitor_of
@@ -66,6 +70,24 @@ def test_the_latest_finished_comparison_of_each_world_counts(client, worlds, me,
     assert [(one["place"], one["who"]) for one in found["worlds"][0]["entries"]] == [(1, "human"), (1, "meirl")]
     assert found["headline"] == "MEIRL came first most often: in 2 of 3 worlds."
     assert "Not every comparison had the same learners" in found["remarks"][0]
+
+
+def test_a_run_that_was_really_learned_counts_as_its_comparison_says(client, played, settings):  # noqa: F811
+    run = ask(client, played, learners=["meirl", "irlr"]).json()
+    with closing(Database(settings)) as database:
+        worker.learn_now(database, run["id"])
+    comparison = client.get(f"/api/v1/runs/{run['id']}/comparison").json()
+    compared = {one["who"]: one for one in comparison["entries"]}
+    [world] = results(client)["worlds"]
+    assert {one["who"] for one in world["entries"]} == set(compared) - {"optimal"}
+    assert world["optimum"] == compared["optimal"]["expected_return"]
+    for entry in world["entries"]:
+        told = compared[entry["who"]]
+        assert entry["mean_return"] == told["mean_return"]
+        assert entry["share_of_optimum"] == pytest.approx(told["share_of_optimum"])
+        assert entry["expected_return"] == (
+            told["expected_return"] if told["expected_return"] is not None else told["mean_return"]
+        )
 
 
 def test_a_pair_counts_only_where_both_were_there(client, worlds, me, finish):

@@ -10,6 +10,9 @@ import { saveMenu } from "#js/pictures/save-menu.js";
 import { drawPlaces, drawShares } from "#js/results/charts.js";
 
 const NARROWEST = 280;
+/** On a projector everything is so many times as large; results.css has the same width. */
+const LARGER = 1.3;
+const WIDE = window.matchMedia("(min-width: 96rem)");
 
 /** @type {ResultsPageData} */
 const { results, worlds } = pageData();
@@ -40,12 +43,16 @@ function drawBoards() {
  */
 function mount(id, draw, titleId) {
   const box = byId(id);
-  let drawn = 0;
+  let drawn = "";
   const paint = () => {
-    const width = Math.max(NARROWEST, Math.floor(box.clientWidth));
-    if (width === drawn) return;
-    drawn = width;
-    box.replaceChildren(draw(results.standings, width));
+    const scale = WIDE.matches ? LARGER : 1;
+    const width = Math.max(NARROWEST, Math.floor(box.clientWidth / scale));
+    if (drawn === `${width} ${scale}`) return;
+    drawn = `${width} ${scale}`;
+    const chart = draw(results.standings, width);
+    chart.setAttribute("width", String(width * scale));
+    chart.setAttribute("height", String(Number(chart.getAttribute("height")) * scale));
+    box.replaceChildren(chart);
   };
   paint();
   new ResizeObserver(paint).observe(box);
