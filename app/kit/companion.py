@@ -8,18 +8,15 @@ does.
 """
 
 import asyncio
-import contextlib
 import logging
-import os
-import pickle
-import subprocess
-import sys
 import threading
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from dataclasses import dataclass, field
 from typing import Any, TypeVar, TypeVarTuple
 from weakref import WeakValueDictionary
+
+from app.kit.companion_process import CompanionError, Died, Process
 
 logger = logging.getLogger(__name__)
 T = TypeVar("T")
@@ -34,24 +31,12 @@ PATIENCE_S = 15.0
 CLOSE_WITHIN_S = 2.0
 
 
-class CompanionError(Exception):
-    """A call that was not answered."""
-
-
 class Superseded(CompanionError):
     """A newer call of the same kind took its place."""
 
 
 class Busy(CompanionError):
     """Its turn did not come in time."""
-
-
-class Overdue(CompanionError):
-    """It computed for too long."""
-
-
-class Died(CompanionError):
-    """The process died, or could not be started."""
 
 
 class Failed(CompanionError):
@@ -83,7 +68,7 @@ class Companion:
         self._changed = threading.Condition()  # guards what follows
         self._waiting: dict[str, dict[str, _Call]] = {}  # by who asks and kind; in the order of their turns
         self._lines: WeakValueDictionary[tuple[str, str], Line] = WeakValueDictionary()
-        self._process: _Process | None = None
+        self._process: Process | None = None
         self._is_wanted = False
         self._is_closed = False
         self._keeper = threading.Thread(target=self._keep, name="companion", daemon=True)
@@ -154,16 +139,13 @@ class Companion:
     def _is_missing(self) -> bool:
         return self._is_wanted and self._process is None
 
-    def _awake(self) -> "_Process":
+    def _awake(self) -> "Process":
         """Return the running process, after starting it and warming it up if need be."""
         if self._process is not None and self._process.is_running:
             return self._process
         self._end_process()
         self._is_wanted = False  # one that cannot start is tried again only when it is needed again
-        try:
-            process = _Process(self._environment)
-        except OSError as error:
-            raise Died(str(error)) from error
+        process = Process(self._environment)
         with self._changed:
             self._process = process
             if self._is_closed:
@@ -185,7 +167,7 @@ class Companion:
                 self._waiting[who] = calls
             return call
 
-    def _do(self, process: "_Process", call: _Call) -> None:
+    def _do(self, process: "Process", call: _Call) -> None:
         if not call.answer.set_running_or_notify_cancel():
             return
         try:
@@ -197,7 +179,7 @@ class Companion:
             call.answer.set_result(answer)
 
     def _ask(
-        self, process: "_Process", function: Callable[..., Any], arguments: tuple[Any, ...], *, limit_s: float
+        self, process: "Process", function: Callable[..., Any], arguments: tuple[Any, ...], *, limit_s: float
     ) -> Any:  # noqa: ANN401 - whatever the function returns
         """Return what the function returns there, or raise what it raises; a process that failed is let go."""
         try:
@@ -253,59 +235,3 @@ class Line:
             return await asyncio.wait_for(answer, PATIENCE_S)
         except TimeoutError:
             raise Busy from None
-
-
-class _Process:
-    """One companion process, seen from here."""
-
-    def __init__(self, environment: Mapping[str, str]) -> None:
-        self._is_overdue = False
-        self._running = subprocess.Popen(
-            [sys.executable, "-m", "app.kit.companion_child"],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            env=os.environ | dict(environment),
-        )
-
-    @property
-    def is_running(self) -> bool:
-        """Whether it is still there: the system may have ended it while nobody asked."""
-        return self._running.poll() is None
-
-    def ask(self, call: object, *, limit_s: float) -> tuple[bool, Any]:
-        """Return its answer. Raises Overdue or Died, after which it is of no more use."""
-        watch = threading.Timer(limit_s, self._give_up)
-        watch.daemon = True
-        watch.start()
-        try:
-            answer: tuple[bool, Any] = self._exchange(pickle.dumps(call))
-        except (OSError, EOFError, pickle.UnpicklingError) as error:
-            raise (Overdue if self._is_overdue else Died)(f"exit code {self._running.poll()}") from error
-        finally:
-            watch.cancel()
-        return answer
-
-    def _exchange(self, call: bytes) -> Any:  # noqa: ANN401 - see companion_child
-        there, back = self._running.stdin, self._running.stdout
-        assert there is not None  # noqa: S101 - for the type checker
-        assert back is not None  # noqa: S101 - as above
-        pickle.dump(call, there)
-        there.flush()
-        return pickle.loads(pickle.load(back))  # noqa: S301 - from our own child
-
-    def _give_up(self) -> None:
-        self._is_overdue = True
-        self.kill()
-
-    def kill(self) -> None:
-        """End it at once: it keeps nothing that could be lost."""
-        self._running.kill()
-
-    def end(self) -> None:
-        """End it and let go of its pipes."""
-        self.kill()
-        self._running.wait()
-        for pipe in (self._running.stdin, self._running.stdout):
-            with contextlib.suppress(OSError):
-                if pipe is not None:
-                    pipe.close()

@@ -4,7 +4,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from app.errors import Conflict, Unavailable, Unprocessable
-from app.kit.companion import CompanionError, Failed, Overdue, Superseded
+from app.kit.companion import Failed, Superseded
+from app.kit.companion_process import CompanionError, Overdue
 from app.retraining.computing import TooSlow
 from irl_core import MissingDemonstrations
 

@@ -14,7 +14,8 @@ import time
 
 import pytest
 
-from app.kit.companion import Companion, Died, Failed, Overdue, Superseded
+from app.kit.companion import Companion, Failed, Superseded
+from app.kit.companion_process import Died, Overdue
 
 OUTLIVED = """
 import os, sys
