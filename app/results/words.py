@@ -135,11 +135,6 @@ def _count(n: int) -> str:
     return str(n) if n else "none"
 
 
-def missing(n_people: int) -> str:
-    """Say how many people a pooled result still waits for."""
-    return f"{_NUMBERS[n_people]} more {'person has' if n_people == 1 else 'people have'}"
-
-
 def heading(words: str) -> str:
     """Begin with a capital."""
     return words[0].upper() + words[1:]

@@ -66,7 +66,7 @@ def test_ones_own_worlds_are_seen_together_and_taken_away(page: Page, server: Li
     with page.expect_download() as download:
         page.get_by_role("button", name="SVG").click()
     download.value.save_as(tmp_path / "places.svg")
-    assert "Bayesian IRLFR came first most often" in (tmp_path / "places.svg").read_text("utf-8")
+    assert "How often each came at which place" in (tmp_path / "places.svg").read_text("utf-8")
     with page.expect_download() as download:
         page.get_by_role("link", name="These figures").click()
     assert download.value.suggested_filename == "irlfr-own-results.csv"

@@ -19,8 +19,8 @@ const { results, worlds } = pageData();
 drawMarkers();
 drawBoards();
 if (results.standings.length > 0) {
-  mount("places-chart", drawPlaces, "places-title");
-  mount("shares-chart", drawShares, "shares-title");
+  mount("places-chart", drawPlaces, "places-title", "places-caption");
+  mount("shares-chart", drawShares, "shares-title", "shares-caption");
 }
 
 function drawMarkers() {
@@ -39,9 +39,9 @@ function drawBoards() {
 
 /**
  * Draw a chart as wide as its box is, and again whenever that changes.
- * @param {string} id @param {(standings: Standing[], width: number) => SVGElement | Element} draw @param {string} titleId
+ * @param {string} id @param {(standings: Standing[], width: number) => SVGElement | Element} draw @param {string} titleId @param {string} captionId
  */
-function mount(id, draw, titleId) {
+function mount(id, draw, titleId, captionId) {
   const box = byId(id);
   let drawn = "";
   const paint = () => {
@@ -57,6 +57,6 @@ function mount(id, draw, titleId) {
   paint();
   new ResizeObserver(paint).observe(box);
   const title = byId(titleId);
-  const about = { title: title.textContent ?? "", note: document.querySelector("h1")?.textContent ?? "" };
+  const about = { title: title.textContent ?? "", note: byId(captionId).textContent ?? "" };
   title.after(saveMenu(() => box.querySelector("svg"), about));
 }
