@@ -31,7 +31,7 @@ def test_a_person_asks_why(browser: Browser, visitor: BrowserContext, base_url: 
     check_trouble_is_said_and_passes(page)
     check_what_is_not_known(page, client, run_id)
     check_a_board_is_saved_with_its_sentence(page)
-    check_a_link_shows_the_same(browser, page, client, run_id)
+    check_a_link_shows_the_same(browser, page, base_url)
 
 
 def small_run(page: Page, client: walk.ContextClient) -> str:
@@ -148,18 +148,23 @@ def check_a_board_is_saved_with_its_sentence(page: Page) -> None:
     assert f"<title>{told}</title>" in picture.replace("&#39;", "'")
 
 
-def check_a_link_shows_the_same(browser: Browser, page: Page, client: walk.ContextClient, run_id: str) -> None:
-    """Who has the link sees the same what-if of somebody else's attempts."""
+def check_a_link_shows_the_same(browser: Browser, page: Page, base_url: str) -> None:
+    """Who has the link sees the same what-if of somebody else's attempts, and may ask on."""
     told = sentence(page, "what-if").text_content() or ""
-    key = client.post(f"/runs/{run_id}/shares", {})["key"]
-    fragment = page.url.partition("#")[2]
-    with scripts_watched(browser.new_context(base_url=client.base.removesuffix("/api/v1"))) as stranger:
+    page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    part(page, "what-if").get_by_role("button", name="Copy the link to this").click()
+    expect(part(page, "what-if").locator('[data-why="copied"]')).to_contain_text("The link is copied")
+    link: str = page.evaluate("navigator.clipboard.readText()")
+    assert "?key=" in link
+    with scripts_watched(browser.new_context(base_url=base_url)) as stranger:
         theirs = stranger.new_page()
-        theirs.goto(f"/runs/{run_id}/comparison?key={key}#{fragment}")
-        expect(sentence(theirs, "what-if")).to_have_text(told.replace("your", "the player's"), timeout=ANSWERED_MS)
+        theirs.goto(link)
+        answered(theirs, "what-if")
+        expect(sentence(theirs, "what-if")).to_have_text(told.replace("your", "the player's"))
         expect(theirs.locator('[data-why="chosen"]')).to_have_text("What if the player's 2nd success …")
+        answered(theirs, "mattered")
         expect(sentence(theirs, "mattered")).to_contain_text("he player's")
-        assert theirs.url.endswith(f"?key={key}#{fragment}")
+        assert theirs.url == link
 
 
 def answered(page: Page, name: str) -> None:

@@ -1,7 +1,8 @@
 import assert from "node:assert/strict";
 import test from "node:test";
+import { voiceOf } from "#js/comparisons/voice.js";
 import { attemptsOf, byInfluence } from "#js/comparisons/why/attempts.js";
-import { differenceWords, doubtWords, squareWords } from "#js/comparisons/why/square-words.js";
+import { changeWords, doubtWords } from "#js/comparisons/why/square-words.js";
 import {
   doubtful,
   doubtSentence,
@@ -41,7 +42,7 @@ const snapshot = {
 const attempts = attemptsOf(snapshot);
 const irlfr = { title: "IRLFR", uses_failures: true, uses_ranking: true };
 const meirl = { title: "MEIRL", uses_failures: false, uses_ranking: false };
-const about = { who: irlfr, whose: "your", world, leavesOut: true };
+const about = { who: irlfr, voice: voiceOf(true), world, leavesOut: true };
 
 const influence = (id, more = {}) => ({
   id,
@@ -98,7 +99,7 @@ test("the attempt that mattered most is named with what turns and what it earns"
 
 test("whose attempts they are is said to who came by a link", () => {
   assert.match(
-    mattersSentence([influence("a"), influence("b", nothing)], attempts, { ...about, whose: "the player's" }),
+    mattersSentence([influence("a"), influence("b", nothing)], attempts, { ...about, voice: voiceOf(false) }),
     /^The player's 2nd success mattered most to IRLFR/,
   );
 });
@@ -208,18 +209,18 @@ test("a square is told in words: its step, the one before, its reward", () => {
     ],
   };
   const before = {
-    reward: [0.11],
+    reward: [0.11, -1, 0, 0, 0, 0, 0, 0, 5],
     policy: [
       [0.5, 0.1, 0.5, 0.1],
       [0, 1, 0, 0],
     ],
   };
-  assert.equal(squareWords(world, 0, belief, before), "goes right, went up or down before; reward 0.31");
-  assert.equal(squareWords(world, 1, belief, before), "goes anywhere; reward −1.0");
-  assert.equal(squareWords(world, 8, belief), "the goal, reward 6.0");
-  assert.equal(differenceWords(world, 0, before, belief), "reward +0.20, from 0.11 to 0.31");
+  const told = (state) => changeWords(world, state, before, belief);
+  assert.equal(told(0), "Row 1, column 1: goes right, went up or down before; reward 0.11 → 0.31.");
+  assert.equal(told(1), "Row 1, column 2: goes anywhere; reward −1.0.");
+  assert.equal(told(8), "Row 3, column 3: the goal; reward 5.0 → 6.0.");
   assert.equal(
     doubtWords(world, 0, belief, { policy_agreement: [0.64], reward_low: [-0.3], reward_high: [0.8] }),
-    "goes right, as in 64 % of the draws; reward −0.30 to 0.80",
+    "Row 1, column 1: goes right, as in 64 % of the draws; reward −0.30 to 0.80.",
   );
 });

@@ -50,7 +50,7 @@ export class Chooser {
     const attempts = this.#about.attempts.filter((one) => one.outcome === outcome);
     this.#part(outcome).replaceChildren(...attempts.map((attempt) => this.#card(attempt)));
     this.#part(`${outcome}-group`).hidden = attempts.length === 0;
-    this.#part(`${outcome}-title`).textContent = titleOf(attempts, this.#about.whose);
+    this.#part(`${outcome}-title`).textContent = titleOf(attempts, this.#about.voice);
   }
 
   /** @param {Attempt} attempt */
@@ -77,7 +77,7 @@ export class Chooser {
     if (!chosen) return;
     const other = chosen.outcome === "success" ? "failure" : "success";
     const partners = partnersOf(this.#about.attempts, chosen);
-    this.#part("chosen").textContent = `What if ${this.#about.whose} ${nameOf(chosen)} …`;
+    this.#part("chosen").textContent = `What if ${this.#about.voice.your} ${nameOf(chosen)} …`;
     this.#part("relabel").textContent = `were called a ${other}`;
     this.#part("relabel").disabled = !canBeCalledOtherwise(chosen);
     this.#part("never").hidden = canBeCalledOtherwise(chosen);
@@ -137,12 +137,12 @@ export function idOf(change) {
   return "relabel" in change ? change.relabel : change.swap[0];
 }
 
-/** "Your successes, best first". @param {Attempt[]} attempts @param {string} whose */
-function titleOf(attempts, whose) {
+/** "Your successes, best first". @param {Attempt[]} attempts @param {import("#js/comparisons/voice.js").Voice} voice */
+function titleOf(attempts, { Your }) {
   const [first] = attempts;
   if (!first) return "";
   const isSuccess = first.outcome === "success";
-  if (attempts.length === 1) return `${capital(whose)} ${first.outcome}`;
+  if (attempts.length === 1) return `${Your} ${first.outcome}`;
   const order = !first.isOrdered ? "in the order played" : isSuccess ? "best first" : "worst first";
-  return `${capital(whose)} ${isSuccess ? "successes" : "failures"}, ${order}`;
+  return `${Your} ${isSuccess ? "successes" : "failures"}, ${order}`;
 }

@@ -3,7 +3,7 @@
  * @import {About, Asked} from "#js/comparisons/why/about.js"
  * @import {Uncertainty} from "#js/comparisons/why/types.js"
  */
-import { MarkedBoard } from "#js/comparisons/why/marked-board.js";
+import { MarkedBoard, readTogether } from "#js/comparisons/why/marked-board.js";
 import { Panel } from "#js/comparisons/why/panel.js";
 import { othersMarks, showReturns } from "#js/comparisons/why/return-scale.js";
 import { doubtWords } from "#js/comparisons/why/square-words.js";
@@ -14,6 +14,9 @@ import { runApi } from "#js/lib/run-address.js";
 export class Doubt {
   #about;
   #board;
+  #looking;
+  /** One square in words. @type {(state: number) => string} */
+  #wordsOf = () => "";
   /** @type {Panel<Uncertainty>} */
   panel;
 
@@ -26,8 +29,14 @@ export class Doubt {
     this.#about = about;
     this.panel = new Panel(details, (answer) => this.#draw(answer), signal);
     const template = /** @type {HTMLTemplateElement} */ (document.querySelector("#why-board"));
-    this.#board = new MarkedBoard(template, about.world, "Where it is sure", signal);
+    this.#board = new MarkedBoard(template, about.world, "Where it is sure");
     this.panel.part("board").replaceChildren(this.#board.element);
+    this.#looking = readTogether(about.world, {
+      boards: [this.#board],
+      words: this.panel.part("reading"),
+      wordsOf: (state) => this.#wordsOf(state),
+      signal,
+    });
   }
 
   /** @param {Asked} who */
@@ -38,9 +47,11 @@ export class Doubt {
 
   /** @param {Uncertainty} found */
   #draw(found) {
-    const { learners, world, others, whose } = this.#about;
+    const { learners, world, others, voice } = this.#about;
     const who = /** @type {Asked} */ (learners.find(({ name }) => name === found.learner));
     const belief = { reward: (who.result.reward ?? []).flat(), policy: who.result.policy ?? [] };
+    this.#wordsOf = (state) => doubtWords(world, state, belief, found);
+    this.#looking.again();
     const unsure = doubtful(found.policy_agreement, world);
     this.#board.show({
       dimmed: unsure.flatMap((isUnsure, state) => (isUnsure ? [state] : [])),
@@ -53,14 +64,13 @@ export class Doubt {
       caption: `Where ${who.title} is sure of its step`,
       note: `Grey, hatched: fewer than three draws in four take the same step. ${methodSentence(found)}`,
       label: `The arrows of ${who.title}, hatched where it is not sure of its step.`,
-      read: (state) => doubtWords(world, state, belief, found),
     });
     const expected = who.entry?.expected_return ?? null;
     showReturns(this.panel.part("returns"), {
       interval: isSpread(found) ? [found.return_low, found.return_high] : undefined,
       marks: [
         ...(expected === null ? [] : [{ who: who.name, at: expected, words: "as it is" }]),
-        ...othersMarks(others, whose),
+        ...othersMarks(others, voice.your),
       ],
     });
     this.panel.part("interval").textContent = found.sentence;

@@ -1,18 +1,15 @@
 /**
- * A board of "Why": some squares framed, a legend of its own scale, and the square that one points at or walks to read out
- * in words, with the mouse, a finger or the arrow keys.
+ * A board of "Why": some squares marked, the words of its own scale, and a way to save it.
  * @import {IrlBoard} from "#js/elements/irl-board.js"
  * @import {View, World} from "#js/board/state.js"
  */
-
-import { nextState, placeOf } from "#js/board/state.js";
+import { DELTAS } from "#js/board/state.js";
+import { Looking } from "#js/comparisons/looking.js";
 import { Marks } from "#js/comparisons/why/marks.js";
 import { whyPicture } from "#js/comparisons/why/picture.js";
-import { announce } from "#js/lib/announce.js";
 import { fileNameOf } from "#js/pictures/files.js";
 import { saveMenu } from "#js/pictures/save-menu.js";
 
-const HINT = "Point at a square to read it.";
 const KEYS = ["ArrowUp", "ArrowRight", "ArrowDown", "ArrowLeft"];
 
 /**
@@ -24,7 +21,6 @@ const KEYS = ["ArrowUp", "ArrowRight", "ArrowDown", "ArrowLeft"];
  * @property {string} label what the picture says, for whom does not see it
  * @property {string} caption what the picture is called when it is saved
  * @property {string} [note] what is to be said below it then
- * @property {(state: number) => string} read one square in words
  */
 
 export class MarkedBoard {
@@ -33,19 +29,14 @@ export class MarkedBoard {
   /** @type {Shown | null} */
   #shown = null;
 
-  /** @param {HTMLTemplateElement} template @param {World} world @param {string} title @param {AbortSignal} signal */
-  constructor(template, world, title, signal) {
+  /** @param {HTMLTemplateElement} template @param {World} world @param {string} title */
+  constructor(template, world, title) {
     this.#world = world;
     this.element = /** @type {HTMLElement} */ (document.importNode(template.content, true).firstElementChild);
     this.#part("title").textContent = title;
     this.board.world = world;
     this.#marks = new Marks(this.board, world);
     this.#part("save").append(this.#saveMenu(title));
-    this.board.addEventListener("pointermove", (event) => this.#point(event), { signal });
-    this.board.addEventListener("pointerdown", (event) => this.#point(event), { signal });
-    this.board.addEventListener("pointerleave", () => this.#look(null), { signal });
-    this.board.addEventListener("blur", () => this.#look(null), { signal });
-    this.board.addEventListener("keydown", (event) => this.#onKey(event), { signal });
   }
 
   get board() {
@@ -62,7 +53,6 @@ export class MarkedBoard {
     else this.#marks.frame(framed);
     this.#part("ramp").hidden = ends === null;
     [this.#part("lowest").textContent, this.#part("highest").textContent] = ends ?? ["", ""];
-    this.#look(this.board.cursor);
   }
 
   /** @param {string} title */
@@ -76,36 +66,32 @@ export class MarkedBoard {
     return menu;
   }
 
-  /** @param {PointerEvent} event */
-  #point(event) {
-    this.#look(this.board.stateAt(event.clientX, event.clientY));
-  }
-
-  /** @param {KeyboardEvent} event */
-  #onKey(event) {
-    const action = KEYS.indexOf(event.key);
-    if (action < 0 || event.altKey || event.ctrlKey || event.metaKey) return;
-    event.preventDefault();
-    const from = this.board.cursor;
-    this.#look(from === null ? this.#world.start : nextState({ ...this.#world, walls: [] }, from, action));
-    announce(this.#part("reading").textContent ?? "");
-  }
-
-  /** @param {number | null} state */
-  #look(state) {
-    if (this.board.cursor !== state) this.board.cursor = state;
-    const words = state === null ? HINT : `${squareName(this.#world, state)}: ${this.#shown?.read(state) ?? ""}`;
-    this.#part("reading").textContent = words;
-  }
-
   /** @param {string} name */
   #part(name) {
     return /** @type {HTMLElement} */ (this.element.querySelector(`[data-why="${name}"]`));
   }
 }
 
-/** "Row 2, column 3". @param {World} world @param {number} state */
-function squareName(world, state) {
-  const [row, col] = placeOf(world, state);
-  return `Row ${row + 1}, column ${col + 1}`;
+/**
+ * The same square of several boards is looked at, and read out in words: by mouse, by a tap, or by the arrow keys on one of
+ * them.
+ * @param {World} world
+ * @param {{ boards: MarkedBoard[], words: HTMLElement, wordsOf: (state: number) => string, signal: AbortSignal }} shown
+ */
+export function readTogether(world, { boards, words, wordsOf, signal }) {
+  const looking = new Looking(world, { boards: boards.map(({ board }) => board), words, wordsOf });
+  looking.start(signal);
+  for (const { board } of boards) {
+    board.addEventListener("keydown", (event) => onKey(event, looking), { signal });
+    board.addEventListener("blur", () => looking.away(), { signal });
+  }
+  return looking;
+}
+
+/** @param {KeyboardEvent} event @param {Looking} looking */
+function onKey(event, looking) {
+  const [down, right] = DELTAS[KEYS.indexOf(event.key)] ?? [0, 0];
+  if ((!down && !right) || event.altKey || event.ctrlKey || event.metaKey) return;
+  event.preventDefault();
+  looking.step(down, right);
 }

@@ -28,10 +28,10 @@ export function showReturns(box, { marks, interval, moves }) {
   box.replaceChildren(line, key);
 }
 
-/** Where the person and the optimum stand on the scale of returns. @param {import("#js/comparisons/why/about.js").About["others"]} others @param {string} whose */
-export function othersMarks({ human, optimal }, whose) {
+/** Where the person and the optimum stand on the scale of returns. @param {import("#js/comparisons/why/about.js").About["others"]} others @param {string} your */
+export function othersMarks({ human, optimal }, your) {
   return [
-    ...(human ? [{ who: "human", at: human.mean_return, words: `${whose} mean` }] : []),
+    ...(human ? [{ who: "human", at: human.mean_return, words: `${your} mean` }] : []),
     ...(optimal ? [{ who: "optimal", at: optimal.expected_return ?? optimal.mean_return, words: "optimum" }] : []),
   ];
 }

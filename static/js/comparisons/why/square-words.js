@@ -3,7 +3,7 @@
  * @import {Uncertainty} from "#js/comparisons/why/types.js"
  * @import {World} from "#js/board/state.js"
  */
-import { colourOf, DIRECTIONS } from "#js/board/state.js";
+import { colourOf, DIRECTIONS, placeOf } from "#js/board/state.js";
 import { percent, significant } from "#js/charts/figures.js";
 
 /** Chances that differ by less are equals. */
@@ -11,30 +11,25 @@ const EQUALS = 1e-9;
 
 /** @typedef {{ reward: number[], policy: number[][] }} Belief */
 
-/** "goes right, went up before; reward 0.31". @param {World} world @param {number} state @param {Belief} belief @param {Belief} [before] */
-export function squareWords(world, state, belief, before = belief) {
-  const reward = `reward ${significant(belief.reward[state])}`;
-  const bare = bareWords(world, state);
-  if (bare) return bare === "a wall" ? bare : `${bare}, ${reward}`;
-  const [now, then] = [likeliest(belief.policy[state]), likeliest(before.policy[state])];
+/** "Row 1, column 2: goes right, went up before; reward 0.11 → 0.31." @param {World} world @param {number} state @param {Belief} before @param {Belief} after */
+export function changeWords(world, state, before, after) {
+  const [from, to] = [before.reward[state], after.reward[state]].map(significant);
+  const reward = from === to ? `reward ${to}` : `reward ${from} → ${to}`;
+  return inPlace(world, state, () => stepWords(before.policy[state], after.policy[state]), reward);
+}
+
+/** @param {number[] | undefined} before @param {number[] | undefined} after chances of the four steps */
+function stepWords(before, after) {
+  const [then, now] = [likeliest(before), likeliest(after)];
   const went = now.some((step) => then.includes(step)) ? "" : `, went ${inWords(then)} before`;
-  return `goes ${inWords(now)}${went}; ${reward}`;
+  return `goes ${inWords(now)}${went}`;
 }
 
-/** "reward +0.12, from 0.31 to 0.43". @param {World} world @param {number} state @param {Belief} before @param {Belief} after */
-export function differenceWords(world, state, before, after) {
-  if (bareWords(world, state) === "a wall") return "a wall";
-  const [from, to] = [before.reward[state] ?? 0, after.reward[state] ?? 0];
-  const sign = to > from ? "+" : "";
-  return `reward ${sign}${significant(to - from)}, from ${significant(from)} to ${significant(to)}`;
-}
-
-/** "goes right in 64 % of the draws; reward −0.3 to 0.8". @param {World} world @param {number} state @param {Belief} belief @param {Uncertainty} found */
+/** "Row 1, column 2: goes right, as in 64 % of the draws; reward −0.3 to 0.8." @param {World} world @param {number} state @param {Belief} belief @param {Uncertainty} found */
 export function doubtWords(world, state, { policy }, { policy_agreement, reward_low, reward_high }) {
-  const reward = `reward ${significant(reward_low[state])} to ${significant(reward_high[state])}`;
-  const bare = bareWords(world, state);
-  if (bare) return bare === "a wall" ? bare : `${bare}, ${reward}`;
-  return `goes ${inWords(likeliest(policy[state]))}, as in ${percent(policy_agreement[state])} of the draws; ${reward}`;
+  const step = () =>
+    `goes ${inWords(likeliest(policy[state]))}, as in ${percent(policy_agreement[state])} of the draws`;
+  return inPlace(world, state, step, `reward ${significant(reward_low[state])} to ${significant(reward_high[state])}`);
 }
 
 /** The likeliest steps, several where they are equals. @param {number[] | undefined} row */
@@ -49,8 +44,10 @@ function inWords(steps) {
   return `${steps.slice(0, -1).join(", ")}${steps.length > 1 ? " or " : ""}${steps.at(-1)}`;
 }
 
-/** Where no arrow stands. @param {World} world @param {number} state */
-function bareWords(world, state) {
-  if (colourOf(world, state) === "wall") return "a wall";
-  return world.goals.includes(state) ? "the goal" : "";
+/** Where it is, what is done there, what it is held worth. @param {World} world @param {number} state @param {() => string} step @param {string} reward */
+function inPlace(world, state, step, reward) {
+  const [row, col] = placeOf(world, state);
+  const place = `Row ${row + 1}, column ${col + 1}`;
+  if (colourOf(world, state) === "wall") return `${place}: a wall.`;
+  return `${place}: ${world.goals.includes(state) ? "the goal" : step()}; ${reward}.`;
 }

@@ -8,12 +8,14 @@ import { symmetricRange } from "#js/board/colours.js";
 import { significant } from "#js/charts/figures.js";
 import { changedPlay } from "#js/comparisons/why/attempts.js";
 import { Chooser } from "#js/comparisons/why/chooser.js";
-import { MarkedBoard } from "#js/comparisons/why/marked-board.js";
+import { copyLink } from "#js/comparisons/why/link.js";
+import { MarkedBoard, readTogether } from "#js/comparisons/why/marked-board.js";
 import { Panel } from "#js/comparisons/why/panel.js";
 import { othersMarks, showReturns } from "#js/comparisons/why/return-scale.js";
-import { differenceWords, squareWords } from "#js/comparisons/why/square-words.js";
+import { changeWords } from "#js/comparisons/why/square-words.js";
 import { whatIfSentence } from "#js/comparisons/why/words.js";
 import { untouched } from "#js/learning/material.js";
+import { announce } from "#js/lib/announce.js";
 import { api } from "#js/lib/api.js";
 import { plural } from "#js/lib/format.js";
 import { runApi } from "#js/lib/run-address.js";
@@ -27,6 +29,10 @@ export class WhatIf {
   #chooser = null;
   /** @type {Record<"before" | "after" | "difference", MarkedBoard> | null} */
   #boards = null;
+  /** @type {import("#js/comparisons/looking.js").Looking | null} */
+  #looking = null;
+  /** One square in words. @type {(state: number) => string} */
+  #wordsOf = () => "";
   /** @type {Change | null} */
   #change = null;
   /** @type {Panel<Answer>} */
@@ -45,6 +51,7 @@ export class WhatIf {
     this.#signal = signal;
     this.panel = new Panel(details, (answer) => this.#draw(answer), signal);
     this.panel.part("undo").addEventListener("click", () => this.#undo(), { signal });
+    this.panel.part("link").addEventListener("click", () => this.#copyLink(), { signal });
   }
 
   get change() {
@@ -83,9 +90,15 @@ export class WhatIf {
     this.#chooser = new Chooser(this.#details, this.#about, choose, this.#signal);
     this.#chooser.change = this.#change;
     const template = /** @type {HTMLTemplateElement} */ (document.querySelector("#why-board"));
-    const board = (/** @type {string} */ title) => new MarkedBoard(template, this.#about.world, title, this.#signal);
+    const board = (/** @type {string} */ title) => new MarkedBoard(template, this.#about.world, title);
     this.#boards = { before: board("As it is"), after: board("What if"), difference: board("What changes") };
     this.panel.part("boards").replaceChildren(...Object.values(this.#boards).map(({ element }) => element));
+    this.#looking = readTogether(this.#about.world, {
+      boards: Object.values(this.#boards),
+      words: this.panel.part("reading"),
+      wordsOf: (state) => this.#wordsOf(state),
+      signal: this.#signal,
+    });
   }
 
   #undo() {
@@ -94,8 +107,15 @@ export class WhatIf {
     this.focus();
   }
 
+  async #copyLink() {
+    const told = await copyLink(this.#about);
+    this.panel.part("copied").textContent = told;
+    announce(told);
+  }
+
   /** @param {Answer} answer */
   #draw(answer) {
+    this.panel.part("copied").textContent = "";
     const { learners, attempts, world } = this.#about;
     const who = /** @type {Asked} */ (learners.find(({ name }) => name === answer.learner));
     const sentence = whatIfSentence(answer, attempts, { ...this.#about, who, world });
@@ -109,6 +129,8 @@ export class WhatIf {
     const { world, attempts } = this.#about;
     const before = { reward: (who.result.reward ?? []).flat(), policy: who.result.policy ?? [] };
     const after = { reward: result.reward.flat(), policy: result.policy };
+    this.#wordsOf = (state) => changeWords(world, state, before, after);
+    this.#looking?.again();
     const play = attempts.map(({ demonstration }) => demonstration);
     const scale = symmetricRange([...before.reward, ...after.reward]);
     const shared = { framed: difference.turned, ends: endsOf(scale), note: "Framed: the likeliest step is another." };
@@ -117,7 +139,6 @@ export class WhatIf {
       view: { values: before.reward, arrows: before.policy, scale, unknown: untouched(world, play, who) },
       label: `The reward ${who.title} learned and its arrows, as they are.`,
       caption: `What ${who.title} learned`,
-      read: (state) => squareWords(world, state, before),
     });
     const unknown = untouched(world, changedPlay(play, change), who);
     this.#boards?.after.show({
@@ -125,7 +146,6 @@ export class WhatIf {
       view: { values: after.reward, arrows: after.policy, scale, unknown },
       label: `The same after the change; ${plural(difference.turned.length, "arrow")} turned.`,
       caption: sentence,
-      read: (state) => squareWords(world, state, after, before),
     });
     const range = symmetricRange(difference.reward);
     this.#boards?.difference.show({
@@ -134,20 +154,19 @@ export class WhatIf {
       ends: [`${significant(range[1])} less`, `${significant(range[1])} more`],
       label: "How the learned reward of each square changes.",
       caption: `How the learned reward changes. ${sentence}`,
-      read: (state) => differenceWords(world, state, before, after),
     });
   }
 
   /** @param {Answer} answer @param {Asked} who */
   #drawReturns({ before, expected_return }, { name }) {
-    const { others, whose } = this.#about;
+    const { others, voice } = this.#about;
     showReturns(this.panel.part("returns"), {
       moves: [before.expected_return, expected_return],
       marks: [
         { who: name, at: before.expected_return, words: "as it is", isGhost: true },
         { who: name, at: expected_return, words: "what if" },
         // Without the person, who often stands so far off that the move itself could not be seen.
-        ...othersMarks({ ...others, human: null }, whose),
+        ...othersMarks({ ...others, human: null }, voice.your),
       ],
     });
   }

@@ -3,6 +3,7 @@
  * "about as much", and where nothing changes the sentence says why, if the data tell.
  * @import {Attempt, Change, Influence, Uncertainty, WhatIf} from "#js/comparisons/why/types.js"
  * @import {World} from "#js/learning/types.js"
+ * @import {Voice} from "#js/comparisons/voice.js"
  */
 import { figure, listed } from "#js/charts/figures.js";
 import { isSameWalk } from "#js/comparisons/why/attempts.js";
@@ -18,7 +19,6 @@ const SMALLEST_SHARE = 0.005;
 export const AGREEMENT = 0.75;
 
 /** @typedef {{ title: string, uses_failures: boolean, uses_ranking: boolean }} Who */
-/** Whose attempts they are: "your" to who made them, "the player's" to who came by a link. @typedef {"your" | "the player's"} Whose */
 
 /** "2nd success", "only failure". @param {Attempt} attempt */
 export function nameOf({ outcome, place, count }) {
@@ -53,21 +53,21 @@ export function countArrows({ rows, cols, goals, walls }) {
  * "Your 2nd success mattered most to IRLFR: without it, 11 of 48 arrows turn and it would earn 2.1 less."
  * @param {Influence[]} sorted the greatest first
  * @param {Attempt[]} attempts
- * @param {{ who: Who, whose: Whose, world: World }} about
+ * @param {{ who: Who, voice: Voice, world: World }} about
  */
-export function mattersSentence(sorted, attempts, { who, whose, world }) {
+export function mattersSentence(sorted, attempts, { who, voice, world }) {
   const [first] = sorted;
   if (!first) return "There are no attempts to leave out.";
   const needed = sorted.filter((one) => one.policy_change === null);
-  if (needed.length > 0) return neededSentence(namesOf(needed, attempts), { who, whose });
+  if (needed.length > 0) return neededSentence(namesOf(needed, attempts), { who, voice });
   if (isNothing(first))
-    return `None of ${whose} attempts matters to ${who.title} alone: it learns the same without any one of them.`;
+    return `None of ${voice.your} attempts matters to ${who.title} alone: it learns the same without any one of them.`;
   const alike = sorted.filter((one) => hasSameEffect(one, first));
   const without = `without ${alike.length > 1 ? "any one of them" : "it"}, ${withoutWords(first, world)}.`;
-  if (sorted.length === 1) return `${capital(whose)} only attempt is all ${who.title} has: ${without}`;
-  if (alike.length === sorted.length) return `All of ${whose} attempts mattered alike to ${who.title}: ${without}`;
+  if (sorted.length === 1) return `${voice.Your} only attempt is all ${who.title} has: ${without}`;
+  if (alike.length === sorted.length) return `All of ${voice.your} attempts mattered alike to ${who.title}: ${without}`;
   const most = alike.length > 1 ? "mattered most, and alike," : "mattered most";
-  return `${capital(whose)} ${listed(namesOf(alike, attempts))} ${most} to ${who.title}: ${without}`;
+  return `${voice.Your} ${listed(namesOf(alike, attempts))} ${most} to ${who.title}: ${without}`;
 }
 
 /** @param {Influence} one @param {Influence} other */
@@ -79,10 +79,10 @@ function hasSameEffect(one, other) {
   return Math.abs(policy) <= DUST && Math.abs(earned) <= DUST;
 }
 
-/** @param {string[]} names @param {{ who: Who, whose: Whose }} about */
-function neededSentence(names, { who, whose }) {
+/** @param {string[]} names @param {{ who: Who, voice: Voice }} about */
+function neededSentence(names, { who, voice }) {
   const each = names.length > 1 ? "any one of " : "";
-  return `Without ${each}${whose} ${listed(names)}, ${who.title} could learn nothing at all.`;
+  return `Without ${each}${voice.your} ${listed(names)}, ${who.title} could learn nothing at all.`;
 }
 
 /** What one row of the list says of its attempt. @param {Influence} influence @param {World} world */
@@ -122,11 +122,11 @@ function earningWords(who, change) {
  * "Without your 2nd success, 11 of 48 arrows turn and IRLFR would earn 2.1 less: 3.1 instead of 5.2."
  * @param {WhatIf} answer
  * @param {Attempt[]} attempts
- * @param {{ who: Who, whose: Whose, world: World, leavesOut: boolean }} about leavesOut: failures that never reached the goal
+ * @param {{ who: Who, voice: Voice, world: World, leavesOut: boolean }} about leavesOut: failures that never reached the goal
  */
 export function whatIfSentence({ change, difference, before, expected_return }, attempts, about) {
   const { who, world } = about;
-  const clause = conditionWords(change, attempts, about.whose);
+  const clause = conditionWords(change, attempts, about.voice);
   const delta = expected_return - before.expected_return;
   if (isNothing(difference)) return `${clause}, nothing changes${reasonWords(change, attempts, about)}`;
   const figures =
@@ -136,13 +136,13 @@ export function whatIfSentence({ change, difference, before, expected_return }, 
   return `${clause}, ${arrowsTurn(difference.turned.length, world)} and ${earningWords(who.title, delta)}${figures}.`;
 }
 
-/** @param {Change} change @param {Attempt[]} attempts @param {Whose} whose */
-export function conditionWords(change, attempts, whose) {
+/** @param {Change} change @param {Attempt[]} attempts @param {Voice} voice */
+export function conditionWords(change, attempts, voice) {
   const name = (/** @type {string} */ id) => namesOf([{ id }], attempts)[0];
-  if ("drop" in change) return `Without ${whose} ${name(change.drop)}`;
-  if ("swap" in change) return `With ${whose} ${listed(change.swap.map(name))} in each other's place`;
+  if ("drop" in change) return `Without ${voice.your} ${name(change.drop)}`;
+  if ("swap" in change) return `With ${voice.your} ${listed(change.swap.map(name))} in each other's place`;
   const other = attempts.find(({ id }) => id === change.relabel)?.outcome === "success" ? "failure" : "success";
-  return `With ${whose} ${name(change.relabel)} called a ${other}`;
+  return `With ${voice.your} ${name(change.relabel)} called a ${other}`;
 }
 
 /**
