@@ -20,8 +20,13 @@ QUEUE = "runs"
 WORKFLOW = "learn"
 WEB_BELL = "web"
 """Rings when a worker has stored something that a stream may wait for."""
-WORKER_BELLS = "worker-*"
-"""Ring when there is a run to take up; a worker by another name finds it at its next look."""
+WORKER_BELLS = "*.worker"
+"""Ring when there is a run to take up."""
+
+
+def worker_bell(name: str) -> str:
+    """The bell of the worker of this name."""
+    return WORKER_BELLS.replace("*", name)
 
 
 class Jobs:

@@ -22,7 +22,7 @@ from app.config import Settings
 from app.db import CANNOT_WRITE, WORKER_PATIENCE_MS, Database, make_engine, migrate
 from app.kit.bell import Ringer, RungEvent
 from app.learning import steps
-from app.learning.jobs import APPLICATION, APPLICATION_VERSION, QUEUE, WEB_BELL, WORKFLOW
+from app.learning.jobs import APPLICATION, APPLICATION_VERSION, QUEUE, WEB_BELL, WORKFLOW, worker_bell
 from app.learning.turns import Turns
 from app.learning.upkeep import Upkeep, lock_of
 from irl_core import IrlError, warm_up
@@ -169,7 +169,7 @@ def _launch(settings: Settings, name: str, database: Database, at_work: set[str]
         partition_concurrency=RUNS_OF_A_VISITOR_AT_ONCE,
         polling_interval_sec=LOOK_FOR_RUNS_EVERY_S,
     )
-    _look_when_it_rings(engine, RungEvent(settings.data_dir, name))
+    _look_when_it_rings(engine, RungEvent(settings.data_dir, worker_bell(name)))
 
 
 def _look_when_it_rings(engine: DBOS, bell: RungEvent) -> None:
