@@ -37,6 +37,13 @@ test("a person who beat every learner is told so", () => {
   );
 });
 
+test("learners that all did alike are none of them the best", () => {
+  assert.match(
+    resultSentence([optimum(7.7), you(6, 2), entry("irlr", "IRLR", -3, 3), entry("meirl", "MEIRL", -3, 3)]),
+    /^You earned more than every learner in this world: 6\.0 against −3\.0 ± 0\.4 for each of them\./,
+  );
+});
+
 test("what lies within two standard errors is about the same", () => {
   assert.equal(
     resultSentence([optimum(7.7), entry("irlfr", "IRLFR", 5.1, 2), you(4.5)]),

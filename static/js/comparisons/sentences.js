@@ -106,7 +106,8 @@ function againstHuman(learners, human, { You, you }) {
     return `${names} ${together ? "each " : ""}earned more than ${you} in this world: ${withReturn(best)} against ${yours}.`;
   if (learners.length === 1)
     return `${You} earned more than ${names} in this world: ${yours} against ${withReturn(best)}.`;
-  return `${You} earned more than every learner in this world: ${yours} against ${withReturn(best)} for ${names}, the best of them.`;
+  const whose = winners.length === learners.length ? "each of them" : `${names}, the best of them`;
+  return `${You} earned more than every learner in this world: ${yours} against ${withReturn(best)} for ${whose}.`;
 }
 
 /** @param {Entry[]} learners by place */
