@@ -1,6 +1,5 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { makeScale, WALKERS } from "#js/board/colours.js";
 import { lookOf } from "#js/board/render.js";
 import { EMPTY_VIEW } from "#js/board/state.js";
 import { boardSvg } from "#js/pictures/board.js";
@@ -9,25 +8,8 @@ import { hex, ink } from "#js/pictures/pen.js";
 import { boardPicture } from "#js/pictures/picture.js";
 import { brokenInto, fittedInto, textWidth } from "#js/pictures/text-width.js";
 import { makeWorld } from "./factories.js";
+import { paper as theme } from "./paper.js";
 
-const theme = {
-  scale: makeScale({ red: [178, 24, 43], middle: [247, 247, 247], blue: [33, 102, 172] }),
-  goal: [242, 194, 48],
-  wall: [83, 89, 92],
-  wallEdge: "#3b4043",
-  grid: "#ffffff",
-  inkDark: "#16191b",
-  inkLight: "#ffffff",
-  unknown: "#8b9396",
-  accent: "#0f766e",
-  canvas: "#ffffff",
-  ink: "#1b1f21",
-  inkSoft: "#535b5e",
-  line: "#dcdfdc",
-  font: "sans-serif",
-  agent: { human: "#2c3337", white: "#ffffff", pupil: "#16191b" },
-  who: Object.fromEntries(Object.keys(WALKERS).map((who, i) => [who, `#0000${(16 + i).toString(16)}`])),
-};
 const world = makeWorld(
   [
     [-0.2, -3.5, -0.9],

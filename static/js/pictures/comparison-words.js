@@ -3,7 +3,7 @@
  * is "the player". Nothing is claimed beyond the figures.
  */
 
-import { figure, listed, percent, withError } from "#js/charts/figures.js";
+import { figure, listed, percent } from "#js/charts/figures.js";
 import { plural } from "#js/lib/format.js";
 import { worldSentence } from "#js/pictures/picture.js";
 
@@ -21,12 +21,18 @@ export function figureSentence({ entries }) {
   const human = entries.find(({ who }) => who === "human");
   const optimum = entries.find(({ who }) => who === "optimal");
   const parts = [];
-  if (best) parts.push(`${best.title} earned ${withError(best.mean_return, best.standard_error)} an episode`);
-  if (human) parts.push(`the player ${withError(human.mean_return, human.standard_error)} an attempt`);
+  if (best) parts.push(`${best.title} earned ${withError(best)} an episode`);
+  if (human) parts.push(`the player ${withError(human)} an attempt`);
   const first = parts.join(", ");
   const last = optimum ? `the optimum is ${figure(optimum.expected_return ?? optimum.mean_return)}` : "";
   const sentence = [first, last].filter(Boolean).join("; ");
   return `${sentence.charAt(0).toUpperCase()}${sentence.slice(1)}.`;
+}
+
+/** An error that rounds to nothing is not worth its sign. @param {Entry} entry */
+function withError({ mean_return, standard_error }) {
+  const error = standard_error ?? 0;
+  return error < 0.05 ? figure(mean_return) : `${figure(mean_return)} ± ${figure(error)}`;
 }
 
 /** One paragraph on what is seen, one on where it comes from. @param {ComparisonData} data */
@@ -50,12 +56,12 @@ function plotWords({ entries }) {
   const count = Math.max(1, ...entries.filter(isLearner).map(({ episodes }) => episodes));
   const human = entries.find(({ who }) => who === "human");
   const person = human ? ` (the player: of ${plural(human.episodes, "attempt")}, failures included)` : "";
-  return `b, Average return of ${count} episodes${person} with ${intervalWords(entries)}; tick: exact expected return; hollow marker: greedy plan on the learned reward; dashed: optimum.`;
+  return `b, Average return of ${count} episodes${person} with ${intervalWords(entries)}; tick: exact expected return; hollow marker: greedy plan on the learned reward; dashed: optimum; in the title, ± one standard error.`;
 }
 
 /** What the whiskers are: newer comparisons carry their intervals. @param {Entry[]} entries */
 function intervalWords(entries) {
-  const hasIntervals = entries.some((entry) => /** @type {any} */ (entry).interval_low !== undefined);
+  const hasIntervals = entries.some((entry) => typeof (/** @type {any} */ (entry).interval_low) === "number");
   return hasIntervals ? "95 % intervals" : "two standard errors to each side";
 }
 

@@ -12,7 +12,7 @@ import { dotPlot } from "#js/pictures/dot-plot.js";
 import { flow, inkItems, learnedScales, markerSign, trueItems } from "#js/pictures/legend.js";
 import { ink } from "#js/pictures/pen.js";
 import { place, svgDocument, text } from "#js/pictures/svg.js";
-import { brokenInto, fittedInto, textWidth } from "#js/pictures/text-width.js";
+import { brokenInto, fittedInto, sizeFor, textWidth } from "#js/pictures/text-width.js";
 
 /** @typedef {import("#js/pictures/svg.js").Figure} Figure */
 /** @typedef {import("#js/board/theme.js").Theme} Theme */
@@ -214,11 +214,13 @@ function panel(board, { who, title, right = "", line = "", theme }) {
   const [soft] = ink(theme.inkSoft);
   const sign = markerSign(who, theme, NAME);
   const aside = right === "" ? 0 : textWidth(right, NAME, 600) + 6;
-  const name = fittedInto(title, board.width - sign.width - 4 - aside, NAME, 600);
+  const room = board.width - sign.width - 4 - aside;
+  const size = sizeFor(title, room, NAME, 600);
+  const name = fittedInto(title, room, size, 600);
   const top = NAME * 1.5;
   const parts = [
     place(sign, 0, NAME * 0.85 - NAME * 0.36 - sign.height / 2),
-    text(name, sign.width + 4, NAME * 0.85, { size: NAME, weight: 600, fill }),
+    text(name, sign.width + 4, NAME * 0.85, { size, weight: 600, fill }),
     right === "" ? "" : text(right, board.width, NAME * 0.85, { size: NAME, weight: 600, fill, anchor: "end" }),
     place(board, 0, top),
     line === "" ? "" : text(line, 0, top + board.height + SMALL * 1.15, { size: SMALL, fill: soft }),

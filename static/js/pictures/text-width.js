@@ -30,6 +30,8 @@ for (const [letters, width] of /** @type {const} */ ([
 }
 const UNKNOWN = 600;
 const BOLD = 1.07;
+/** A name is set no smaller than this share of its size; what is still too long is cut off. */
+const SMALLEST_SHARE = 0.85;
 
 /** @param {string} words @param {number} size @param {number} [weight] */
 export function textWidth(words, size, weight = 400) {
@@ -56,4 +58,9 @@ export function fittedInto(words, width, size, weight = 400) {
   let cut = words;
   while (cut.length > 1 && textWidth(`${cut}…`, size, weight) > width) cut = cut.slice(0, -1).trimEnd();
   return `${cut}…`;
+}
+
+/** The largest size of type, of what is asked for and some smaller ones, at which words fit. @param {string} words @param {number} width @param {number} size @param {number} [weight] */
+export function sizeFor(words, width, size, weight = 400) {
+  return Math.max(SMALLEST_SHARE * size, Math.min(size, (size * width) / textWidth(words, size, weight)));
 }
