@@ -1,6 +1,15 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { describeMaterial, isOutdated, missingWith, untouched, wayThere, weighted } from "#js/learning/material.js";
+import {
+  describeMaterial,
+  isOtherMaterial,
+  isOutdated,
+  missingWith,
+  snapshotOf,
+  untouched,
+  wayThere,
+  weighted,
+} from "#js/learning/material.js";
 import { readSetting } from "#js/learning/settings.js";
 import { makeWorld } from "./factories.js";
 
@@ -70,6 +79,30 @@ test("a run is old once something was played or ranked after it", () => {
 test("who misses attempts is led to play, who misses the order is led to rank", () => {
   assert.equal(wayThere(world, [], { uses_failures: false }).href, "/worlds/world");
   assert.equal(wayThere(world, [success, other], { uses_failures: false }).href, "/worlds/world/rank");
+});
+
+test("what an older run learned from is known from its file, and that it is something else by now", () => {
+  const lines = [
+    { kind: "world", rows: 2 },
+    { kind: "demonstration", ...success },
+    { kind: "demonstration", ...failure },
+    { kind: "ranking", outcome: "success", order: [["a"]], weights: { a: 1 } },
+  ];
+  const material = snapshotOf(`${lines.map((line) => JSON.stringify(line)).join("\n")}\n`);
+  assert.deepEqual(
+    material.demonstrations.map(({ id, discarded }) => [id, discarded]),
+    [
+      ["a", false],
+      ["c", false],
+    ],
+  );
+  assert.deepEqual(material.rankings.success.weights, { a: 1 });
+  assert.equal(material.rankings.failure, null);
+  const rankings = { success: null, failure: null };
+  const run = { created_at: "2027-01-01T12:00:00Z", n_demonstrations: 2 };
+  assert.equal(isOtherMaterial(run, { demonstrations: [success, failure], rankings }), false);
+  const withoutOne = [success, { ...failure, discarded: true }];
+  assert.equal(isOtherMaterial(run, { demonstrations: withoutOne, rankings }), true);
 });
 
 test("a setting is read, or refused with what would be right", () => {

@@ -42,6 +42,9 @@ export class Boards {
   /** @param {WatchedRun | null} watched */
   paint(watched) {
     const layers = this.#layers;
+    const material = watched?.material ?? this.#data;
+    this.#given.material = material;
+    this.lineUp.material = material;
     this.#given.showNumbers(layers.numbers);
     this.#say("colours", this.#colours(layers.visits));
     if (!watched) return;

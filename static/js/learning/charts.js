@@ -12,6 +12,8 @@ import { worldSentence } from "#js/pictures/picture.js";
 import { SaveMenu } from "#js/pictures/save-menu.js";
 
 const NOTHING = new FrameStore();
+/** Iterations on the axis of a chart without a run. */
+const EMPTY_AXIS = 500;
 const MEASURES = /** @type {const} */ (["gap", "log_likelihood"]);
 
 export class Charts {
@@ -61,7 +63,7 @@ export class Charts {
   /** @param {WatchedRun | null} watched */
   paint(watched) {
     const store = watched?.store ?? NOTHING;
-    const last = watched?.lastIteration ?? 1;
+    const last = watched?.lastIteration ?? EMPTY_AXIS;
     const position = watched?.timeline.position ?? 0;
     const isNew = store !== this.#store || store.version !== this.#drawn || last !== this.#last;
     if (!isNew) for (const chart of this.#charts.values()) chart.moveTo(position);

@@ -2,6 +2,7 @@
  * The two boards that nobody learned: the attempts as lines, the wider the more they weigh; and, where the page has it,
  * the true reward on a scale like the learners'.
  * @import {LearnPageData} from "#js/learning/types.js"
+ * @import {Material} from "#js/learning/material.js"
  * @import {IrlBoard} from "#js/elements/irl-board.js"
  */
 import { figure } from "#js/charts/figures.js";
@@ -12,6 +13,9 @@ export class GivenBoards {
   /** @type {HTMLElement} */
   #root;
   #data;
+  /** @type {Material} */
+  #material;
+  #which = "all";
 
   /**
    * @param {HTMLElement} root
@@ -20,16 +24,26 @@ export class GivenBoards {
   constructor(root, data) {
     this.#root = root;
     this.#data = data;
+    this.#material = data;
     const own = this.#board("own-board");
     own.world = data.world;
     this.#part("own-save").append(saveMenu(own, { title: data.is_own ? "My play" : "The player’s attempts" }));
-    this.drawPlay("all");
+    this.drawPlay(this.#which);
     if (this.#root.querySelector('[data-part="true-board"]')) this.#drawTruth();
+  }
+
+  /** What is learned from on the boards. @param {Material} material */
+  set material(material) {
+    if (material === this.#material) return;
+    this.#material = material;
+    this.drawPlay(this.#which);
   }
 
   /** @param {string} which "all", "success" or "failure" */
   drawPlay(which) {
-    const { demonstrations, rankings, is_own = true } = this.#data;
+    this.#which = which;
+    const { is_own = true } = this.#data;
+    const { demonstrations, rankings } = this.#material;
     const outcomes = /** @type {const} */ (["failure", "success"]).filter(
       (outcome) => which === "all" || which === outcome,
     );

@@ -5,10 +5,12 @@
  * @import {SetUp} from "#js/learning/set-up.js"
  * @import {WatchedRun} from "#js/learning/watched-run.js"
  */
-import { describeMaterial, isOutdated, lacksFinished, wayThere } from "#js/learning/material.js";
+import { describeMaterial, isOtherMaterial, lacksFinished, wayThere } from "#js/learning/material.js";
 import { setStep } from "#js/lib/path.js";
 import { runAddress } from "#js/lib/run-address.js";
 
+const OLD =
+  "You played or ranked again after this run; the boards show what it learned from. Learn again to use what you have now.";
 /** Under the finger the buttons change into each other; the focus goes along to the first of these that is there. */
 const HEIRS = ["cancel", "compare", "learn", "again"];
 
@@ -76,11 +78,10 @@ export class Head {
 
   /** @param {WatchedRun | null} watched @param {boolean} isGoing */
   #paintActions(watched, isGoing) {
-    const { demonstrations, rankings, learners } = this.#data;
-    const canLearn = learners.some((learner) => !learner.missing);
-    const isOld = watched !== null && !isGoing && isOutdated(watched.run, demonstrations, rankings);
+    const canLearn = this.#data.learners.some((learner) => !learner.missing);
+    const isOld = watched !== null && !isGoing && isOtherMaterial(watched.run, this.#data);
     const isDone = watched?.progress.status === "done";
-    this.#say("notice", isOld ? "You played or ranked again after this run. Learn again to use it." : "");
+    this.#say("notice", isOld ? OLD : "");
     this.#part("notice").hidden = !isOld;
     this.#part("cancel").hidden = !isGoing;
     this.#part("again").hidden = !isGoing;

@@ -1,11 +1,13 @@
 /**
  * One learner on the Learn page: whether it takes part, its board, its colour scale, its progress and how it ended.
  * @import {Frame, LearnerInfo, World} from "#js/learning/types.js"
+ * @import {Material} from "#js/learning/material.js"
  * @import {IrlBoard} from "#js/elements/irl-board.js"
  */
 import { figure, significant } from "#js/charts/figures.js";
 import { marker } from "#js/charts/marker.js";
-import { differenceOf, largestSize } from "#js/learning/visits.js";
+import { untouched } from "#js/learning/material.js";
+import { differenceOf, largestSize, visitsOfAttempts } from "#js/learning/visits.js";
 import { saveMenu } from "#js/pictures/save-menu.js";
 
 /** @typedef {"none" | "learned" | "yours" | "difference"} Visits */
@@ -15,22 +17,23 @@ export class LearnerPanel {
   /** @type {Frame | null} */
   #frame = null;
   #shown = "";
+  /** Squares that no demonstration this learner uses came to. @type {boolean[]} */
+  #unknown = [];
+  /** How often the demonstrations that it draws near to came to each square. @type {number[]} */
+  #played = [];
 
   /**
    * @param {HTMLTemplateElement} template
    * @param {LearnerInfo} learner
-   * @param {object} from
-   * @param {World} from.world
-   * @param {boolean[]} from.unknown squares that no demonstration this learner uses came to
-   * @param {number[]} from.played   how often the demonstrations it draws near to came to each square
+   * @param {World} world
+   * @param {Material} material
    */
-  constructor(template, learner, { world, unknown, played }) {
+  constructor(template, learner, world, material) {
     const copy = document.importNode(template.content, true);
     this.element = /** @type {HTMLElement} */ (copy.firstElementChild);
     this.learner = learner;
     this.world = world;
-    this.unknown = unknown;
-    this.played = played;
+    this.#take(material);
     this.blank = new Array(world.rows * world.cols).fill(0);
     this.element.dataset.who = learner.name;
     this.element.dataset.learner = learner.name;
@@ -52,6 +55,13 @@ export class LearnerPanel {
     return /** @type {IrlBoard} */ (this.element.querySelector("irl-board"));
   }
 
+  /** What it learned from, or will. @param {Material} material */
+  learnFrom(material) {
+    this.#take(material);
+    this.#shown = "";
+    if (!this.#frame) this.clear();
+  }
+
   /** Back to the empty board: what this learner will use, or what it misses. */
   clear() {
     this.#frame = null;
@@ -62,7 +72,7 @@ export class LearnerPanel {
     const { missing, title } = this.learner;
     this.#part("cover").textContent = missing ?? usesInWords(this.learner);
     this.board.label = `Board of ${title}, nothing learned yet.`;
-    this.board.view = { values: this.blank, scale: [-1, 1], unknown: this.unknown };
+    this.board.view = { values: this.blank, scale: [-1, 1], unknown: this.#unknown };
     this.#legend("loses", "earns");
     this.#part("save").hidden = true;
     this.progress({ stage: "idle", share: 0, line: "", outcome: "" });
@@ -103,7 +113,7 @@ export class LearnerPanel {
       numbers: layers.numbers,
       arrows: layers.arrows ? frame.policy : null,
       visits: this.#visits(frame, layers.visits),
-      unknown: this.unknown,
+      unknown: this.#unknown,
     };
     this.board.label = describe(this.learner, frame, this.world);
   }
@@ -111,6 +121,12 @@ export class LearnerPanel {
   get #titleOfPicture() {
     const { title } = this.learner;
     return this.#frame ? `What ${title} learned, iteration ${this.#frame.iteration}` : title;
+  }
+
+  /** @param {Material} material */
+  #take({ demonstrations, rankings }) {
+    this.#unknown = untouched(this.world, demonstrations, this.learner);
+    this.#played = visitsOfAttempts(this.world, demonstrations, rankings, this.learner);
   }
 
   /** @param {Frame} frame @param {number} largest */
@@ -122,7 +138,7 @@ export class LearnerPanel {
 
   /** Where its policy comes more often than the attempts did (blue), and where less. @param {Frame} frame */
   #difference(frame) {
-    const values = differenceOf(frame.visitation, this.played);
+    const values = differenceOf(frame.visitation, this.#played);
     const largest = largestSize(values);
     this.#legend(`${significant(-largest)} visits`, `+${significant(largest)}`);
     return { values, scale: symmetric(largest) };
@@ -131,7 +147,7 @@ export class LearnerPanel {
   /** @param {Frame} frame @param {Visits} visits */
   #visits(frame, visits) {
     if (visits === "learned") return frame.visitation;
-    return visits === "yours" ? this.played : null;
+    return visits === "yours" ? this.#played : null;
   }
 
   /** @param {string} lowest @param {string} highest */

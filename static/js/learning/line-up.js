@@ -1,19 +1,20 @@
 /**
  * Who learns: a board for each learner that the page begins with, a line in a list for the others. Who is ticked in the
  * list gets a board like everybody, and keeps it while it is ticked or has something to show.
+ * @import {Material} from "#js/learning/material.js"
  * @import {LearnerInfo, LearnPageData} from "#js/learning/types.js"
  */
 import { marker } from "#js/charts/marker.js";
 import { columnsFor } from "#js/learning/columns.js";
 import { LearnerPanel } from "#js/learning/learner-panel.js";
-import { untouched } from "#js/learning/material.js";
-import { visitsOfAttempts } from "#js/learning/visits.js";
 
 export { columnsFor };
 
 export class LineUp {
   #root;
   #data;
+  /** @type {Material} */
+  #material;
   /** @type {LearnerPanel[]} in the order of the learners */
   #panels = [];
   /** @type {Map<string, HTMLElement>} the lines of the list, by learner */
@@ -26,6 +27,7 @@ export class LineUp {
   constructor(root, data) {
     this.#root = root;
     this.#data = data;
+    this.#material = data;
     const { run, learners } = data;
     const begins = (/** @type {LearnerInfo} */ { name, preselected }) => (run ? name in run.learners : preselected);
     this.#panels = learners.filter(begins).map((learner) => this.#panel(learner));
@@ -36,13 +38,21 @@ export class LineUp {
     this.#place();
   }
 
+  /** What is learned from on the boards. @param {Material} material */
+  set material(material) {
+    if (material === this.#material) return;
+    this.#material = material;
+    for (const panel of this.#panels) panel.learnFrom(material);
+  }
+
   get panels() {
     return this.#panels;
   }
 
-  /** Names of those who shall learn. */
+  /** Names of those who shall learn: a run on the boards may show others, which could not start now. */
   get chosen() {
-    return this.#panels.filter((panel) => panel.checkbox.checked).map((panel) => panel.learner.name);
+    const chosen = this.#panels.filter(({ checkbox, learner }) => checkbox.checked && !learner.missing);
+    return chosen.map(({ learner }) => learner.name);
   }
 
   /** The learners that have a board. */
@@ -142,12 +152,7 @@ export class LineUp {
 
   /** @param {LearnerInfo} learner */
   #panel(learner) {
-    const { world, demonstrations, rankings } = this.#data;
-    return new LearnerPanel(this.#template("learner-panel"), learner, {
-      world,
-      unknown: untouched(world, demonstrations, learner),
-      played: visitsOfAttempts(world, demonstrations, rankings, learner),
-    });
+    return new LearnerPanel(this.#template("learner-panel"), learner, this.#data.world, this.#material);
   }
 
   /** @param {LearnerInfo} learner */

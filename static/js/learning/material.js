@@ -6,6 +6,36 @@ import { plural } from "#js/lib/format.js";
 
 /** @typedef {{ demonstration: Demonstration, weight: number }} Weighted weight θ, 0…1 */
 
+/** What is learned from. @typedef {{ demonstrations: Demonstration[], rankings: Rankings }} Material */
+
+/**
+ * What a run learned from, out of its demonstration file.
+ * @param {string} text JSON lines
+ * @returns {Material}
+ */
+export function snapshotOf(text) {
+  const lines = text
+    .split("\n")
+    .filter(Boolean)
+    .map((line) => JSON.parse(line));
+  const rankingOf = (/** @type {string} */ outcome) =>
+    lines.find((line) => line.kind === "ranking" && line.outcome === outcome) ?? null;
+  return {
+    demonstrations: lines.filter(({ kind }) => kind === "demonstration").map((one) => ({ ...one, discarded: false })),
+    rankings: { success: rankingOf("success"), failure: rankingOf("failure") },
+  };
+}
+
+/**
+ * True where what stands there now is not what the run learned from: something was played, ranked, discarded or restored.
+ * @param {Run} run
+ * @param {Material} material
+ */
+export function isOtherMaterial(run, { demonstrations, rankings }) {
+  const nKept = demonstrations.filter((one) => !one.discarded).length;
+  return isOutdated(run, demonstrations, rankings) || (run.n_demonstrations ?? nKept) !== nKept;
+}
+
 /**
  * The demonstrations that count, with θ: from the ranking of their outcome, else all alike.
  * @param {Demonstration[]} demonstrations

@@ -6,6 +6,8 @@ import { listed, significant } from "#js/charts/figures.js";
 import { plural } from "#js/lib/format.js";
 
 const MINUTE_MS = 60_000;
+const CLOCK = new Intl.DateTimeFormat("en-GB", { hour: "2-digit", minute: "2-digit" });
+const CALENDAR = new Intl.DateTimeFormat("en-GB", { day: "numeric", month: "short" });
 
 /**
  * Why a run waits.
@@ -77,8 +79,7 @@ export function agoInWords(at, now = Date.now()) {
   if (minutes < 1) return "just now";
   if (minutes < 60) return `${plural(minutes, "minute")} ago`;
   const then = new Date(at);
-  if (minutes < 12 * 60) return `at ${then.toLocaleTimeString("en-GB", { hour: "2-digit", minute: "2-digit" })}`;
-  return `on ${then.toLocaleDateString("en-GB", { day: "numeric", month: "short" })}`;
+  return minutes < 12 * 60 ? `at ${CLOCK.format(then)}` : `on ${CALENDAR.format(then)}`;
 }
 
 /** How long a learner itself computed: "4 ms", "0.31 s", "2 min 5 s". @param {number} ms */

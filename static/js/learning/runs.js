@@ -4,6 +4,7 @@
  * @import {LearnPageData, Run} from "#js/learning/types.js"
  * @import {Listener} from "#js/learning/run-stream.js"
  */
+import { isOtherMaterial } from "#js/learning/material.js";
 import { RunStream } from "#js/learning/run-stream.js";
 import { WatchedRun } from "#js/learning/watched-run.js";
 import { ApiError, api } from "#js/lib/api.js";
@@ -62,6 +63,7 @@ export class Runs {
     this.#shown = watched;
     this.#follow();
     if (watched.progress.isOver) void this.#fill(watched);
+    if (!watched.material && isOtherMaterial(run, this.#data)) void this.#fetchMaterial(watched);
   }
 
   /** Nothing is on the boards; what goes on goes on. */
@@ -155,6 +157,12 @@ export class Runs {
       act(watched, ...told);
       this.#heed.changed();
     };
+  }
+
+  /** @param {WatchedRun} watched */
+  async #fetchMaterial(watched) {
+    await watched.fetchMaterial(this.#signal);
+    this.#heed.changed();
   }
 
   /** @param {WatchedRun} watched */

@@ -48,6 +48,7 @@
  * @property {Record<string, number | string>} settings
  * @property {Record<string, Result>} learners
  * @property {string} created_at
+ * @property {number} [n_demonstrations]
  * @property {number} [n_left_out]
  * @property {number | null} [ahead] how many runs come before it; null unless queued
  * @property {WorkerState} [worker]

@@ -2,9 +2,11 @@
  * One run as this page knows it: its frames, where its time line stands, how far it is. What the stream left out (it
  * sends at most 30 frames a second, and a page that was away gets a snapshot) is fetched from the record of the run.
  * @import {Frame, LearnerInfo, Result, Run, RunStatus} from "#js/learning/types.js"
+ * @import {Material} from "#js/learning/material.js"
  * @import {Snapshot} from "#js/learning/run-stream.js"
  */
 import { FrameStore } from "#js/learning/frame-store.js";
+import { snapshotOf } from "#js/learning/material.js";
 import { RunProgress } from "#js/learning/progress.js";
 import { Timeline } from "#js/learning/timeline.js";
 import { ApiError, api } from "#js/lib/api.js";
@@ -16,6 +18,8 @@ const FEW = 50;
 export class WatchedRun {
   store = new FrameStore();
   timeline = new Timeline();
+  /** What it learned from, where that is not what stands there now. @type {Material | null} */
+  material = null;
   #heard = new Heard();
   /** @type {Promise<void> | null} */
   #filling = null;
@@ -86,6 +90,13 @@ export class WatchedRun {
       this.#filling = null;
     });
     return this.#filling;
+  }
+
+  /** Fetch what it learned from: since then something else was played or ranked. @param {AbortSignal} signal */
+  async fetchMaterial(signal) {
+    const answer = await fetch(`/api/v1${runApi(this.id, "/demonstrations.jsonl")}`, { signal }).catch(() => null);
+    // Without it the boards speak of what stands there now, and the page says that this has changed.
+    if (answer?.ok) this.material = snapshotOf(await answer.text());
   }
 
   /** @param {AbortSignal} signal */
