@@ -7,7 +7,7 @@ from app.errors import Conflict, Unavailable, Unprocessable
 from app.kit.companion import Failed, Superseded
 from app.kit.companion_process import CompanionError, Overdue
 from app.retraining.computing import TooSlow
-from irl_core import MissingDemonstrations
+from irl_core import InvalidRanking, MissingDemonstrations
 
 SUPERSEDED = "Something newer was asked for meanwhile, so this was left."
 TOO_SLOW = (
@@ -19,6 +19,10 @@ TOO_SLOW_AGAIN = (
     " a smaller world."
 )
 TOO_LARGE = "The learner ran out of memory. Try a smaller world."
+IMPOSSIBLE_CHANGES = {
+    "swap": "These two cannot trade places: they must stand in one order.",
+    "relabel": "This attempt never reached the goal, so it cannot be called a success.",
+}
 FAILED = "Something went wrong inside the learner; the server's log has the details."
 NOT_NOW = "Learning at once is busy or just starting on this server. Please try again in a moment."
 
@@ -40,6 +44,9 @@ def in_words(*, too_slow: str = TOO_SLOW_AGAIN) -> Iterator[None]:
         raise Unavailable(NOT_NOW) from error
     except MissingDemonstrations as error:
         raise missing_demonstrations(error.message) from error
+    except InvalidRanking as error:
+        sentence = IMPOSSIBLE_CHANGES.get(error.field or "", error.message)
+        raise Unprocessable(sentence, fields={"change": sentence}) from error
 
 
 def missing_demonstrations(sentence: str) -> Unprocessable:

@@ -67,6 +67,9 @@ class ChangeIn(BaseModel):
         if len(self.told) != 1:
             message = "must say one change: drop, swap or relabel"
             raise ValueError(message)
+        if self.swap is not None and self.swap[0] == self.swap[1]:
+            message = "swap must name two attempts, not one twice"
+            raise ValueError(message)
         return self
 
     @property

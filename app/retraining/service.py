@@ -26,6 +26,7 @@ from irl_core import LEARNERS, LearningProblem, LearningResult
 
 SHOW_WHAT_AN_ORDER_TEACHES = ("irlfr", "irlr", "irlf", "meirl", "birlfr")
 """The first of them that can learn from it."""
+NOTHING_YET = "There is nothing to learn from yet: none of the attempts has reached the goal."
 SEED = 0
 """A preview always has the same, so that the same order shows the same policy."""
 
@@ -119,9 +120,10 @@ def _learner_for(problem: LearningProblem, asked: str | None) -> str:
     if asked is not None and asked not in LEARNERS:
         message = f"There is no such learner; there are {', '.join(LEARNERS)}."
         raise Unprocessable(message, fields={"learner": message})
-    sentence: str | None = None
-    for name in [asked] if asked else SHOW_WHAT_AN_ORDER_TEACHES:
-        sentence = missing(problem, LEARNERS[name])
-        if sentence is None:
-            return name
-    raise missing_demonstrations(sentence or "")
+    sentences = {name: missing(problem, LEARNERS[name]) for name in ([asked] if asked else SHOW_WHAT_AN_ORDER_TEACHES)}
+    able = [name for name, sentence in sentences.items() if sentence is None]
+    if able:
+        return able[0]
+    if asked is None and not problem.successes and not problem.failures:
+        raise missing_demonstrations(NOTHING_YET)
+    raise missing_demonstrations(next(sentence for sentence in sentences.values() if sentence))

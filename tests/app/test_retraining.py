@@ -135,9 +135,10 @@ class TestPreviews:
 
     def test_from_failures_alone_somebody_learns_and_from_nothing_nobody(self, client):
         world = make_world(client, step_limit=90)
-        refused(preview(client, world, {}), 422, "missing_demonstrations", "at least one attempt that reaches the goal")
+        refused(preview(client, world, {}), 422, "missing_demonstrations", "nothing to learn from yet")
         attempt_of(client, world, [1], ending="gave_up")
-        refused(preview(client, world, {}), 422, "missing_demonstrations", "unfinished_failures")
+        refused(preview(client, world, {}), 422, "missing_demonstrations", "reached the goal")
+        refused(preview(client, world, {}, learner="birlfr"), 422, "missing_demonstrations", "unfinished_failures")
         lost = attempt_of(client, world, losing_path(world))
         refused(
             preview(client, world, {}, learner="irlr"), 422, "missing_demonstrations", "IRLR needs at least one success"
@@ -240,7 +241,8 @@ class TestWhatIfs:
         refused(what_if(client, run, {}), 422, "invalid", "one change")
         refused(what_if(client, run, {"drop": first, "relabel": first}), 422, "invalid", "one change")
         refused(what_if(client, run, {"drop": str(uuid.uuid4())}), 422, "invalid", "not one of this run's")
-        refused(what_if(client, run, {"swap": [first, bad]}), 422, "invalid", "must be in one ranking")
+        refused(what_if(client, run, {"swap": [first, bad]}), 422, "invalid", "must stand in one order")
+        refused(what_if(client, run, {"swap": [first, first]}), 422, "invalid", "not one twice")
         refused(what_if(client, run, {"drop": first}, learner="bc"), 422, "invalid", "not one of this run's")
         assert what_if(client, run, {"drop": "x"}).status_code == 422
 
@@ -255,6 +257,13 @@ class TestWhatIfs:
         assert "needs at least one failure" in second["sentence"]
         assert first["policy_change"] is first["turned"] is None
         assert "cannot be said" in ask(client, single, "uncertainty").json()["sentence"]
+
+    def test_what_never_arrived_cannot_be_called_a_success(self, client):
+        world = make_world(client, step_limit=95)
+        orders = play(client, world, n_failures=1)
+        lost = attempt_of(client, world, [1], ending="gave_up")
+        tried = run(client, world, orders | {"failure": [*orders["failure"], lost]}, learners=["meirl"])
+        refused(what_if(client, tried, {"relabel": lost}, learner="meirl"), 422, "invalid", "never reached the goal")
 
     def test_a_learner_that_has_not_finished_has_nothing_to_compare_with(self, client, played):
         world, _, _ = played
