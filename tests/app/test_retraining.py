@@ -246,7 +246,8 @@ class TestWhatIfs:
         refused(what_if(client, run, {"drop": first}, learner="bc"), 422, "invalid", "not one of this run's")
         assert what_if(client, run, {"drop": "x"}).status_code == 422
 
-    def test_without_the_only_success_a_sentence_says_what_is_missing(self, client):
+    def test_without_the_only_success_a_sentence_says_what_is_missing(self, client, monkeypatch):
+        monkeypatch.setattr(findings, "N_DRAWS", (3,))
         world = make_world(client, step_limit=94)
         orders = play(client, world, n_successes=1, n_failures=1)
         single = run(client, world, orders, learners=["irlfr"])
