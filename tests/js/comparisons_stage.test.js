@@ -48,8 +48,8 @@ const told = (cast) => cast.map(({ key, title, standing }) => [key, title, stand
 
 test("the person stands on stage twice: at their best, and nearest their mean", () => {
   assert.deepEqual(told(castOf(pageData(), ENTRIES)), [
-    ["human-best", "Your best attempt", "attempt 1 of 3, the best"],
-    ["human-mean", "Your mean attempt", "attempt 3 of 3, nearest the mean 2.0"],
+    ["human-best", "Your best attempt", "1 of 3, the best"],
+    ["human-mean", "Your mean attempt", "3 of 3, nearest the mean 2.0"],
     ["irlr", "IRLR", "5.0 ± 0.4 over 50 episodes"],
     ["optimal", "Optimum", "7.0 ± 0.4 over 50 episodes"],
   ]);
@@ -67,7 +67,7 @@ test("one attempt alone, and one that is both, stand on stage once", () => {
   const alone = pageData({ totals: [2], human: { best: "a", mean: "a" } });
   assert.deepEqual(told(castOf(alone, ENTRIES))[0], ["human-best", "Your attempt", "your only one"]);
   const both = castOf(pageData({ human: { best: "a", mean: "a" } }), ENTRIES);
-  assert.deepEqual(told(both)[0].at(-1), "attempt 1 of 3, also nearest the mean 2.0");
+  assert.deepEqual(told(both)[0].at(-1), "1 of 3, also nearest the mean 2.0");
   assert.equal(both.length, 3);
 });
 

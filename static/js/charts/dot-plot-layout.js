@@ -1,6 +1,7 @@
 /**
- * Where everything on the dot plot lies: one row an agent in the order given, its mean with its 95 % interval
- * (of two standard errors where an earlier version stored none), its exact expected return and its greedy return on one axis with zero and the optimum.
+ * Where everything on the dot plot lies: one row an agent in the order given, its mean with its 95 % interval (two standard
+ * errors to each side where an earlier version stored none), its exact expected return and its greedy return on one axis
+ * with zero and the optimum.
  * @import {Entry} from "#js/comparisons/types.js"
  */
 import { linearScale, roundDomain, ticks } from "#js/charts/scales.js";

@@ -48,11 +48,11 @@ function attemptsOnStage(data, entry) {
     title: attempts.length === 1 ? `${Your} attempt` : `${Your} ${which} attempt`,
     episodes: attempts.slice(index, index + 1),
     nameOf: () => `attempt ${index + 1} of ${attempts.length}`,
-    standing: attempts.length === 1 ? `${your} only one` : `attempt ${index + 1} of ${attempts.length}, ${standing}`,
+    standing: attempts.length === 1 ? `${your} only one` : `${index + 1} of ${attempts.length}, ${standing}`,
   });
   const middling = `nearest the mean ${figure(entry.mean_return)}`;
   if (best === mean) return [role("best", best, `also ${middling}`)];
-  return [role("best", best, `the best`), role("mean", mean, middling)];
+  return [role("best", best, "the best"), role("mean", mean, middling)];
 }
 
 /** Their places among the attempts; a comparison of an earlier version does not name them. @param {ComparePageData} data @param {Entry} entry */

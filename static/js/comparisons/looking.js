@@ -39,6 +39,10 @@ export class Looking {
     }
   }
 
+  get isLooking() {
+    return this.#state !== null;
+  }
+
   /** From square to square; the first is the start's. @param {number} down @param {number} right */
   step(down, right) {
     const { rows, cols, start } = this.#world;

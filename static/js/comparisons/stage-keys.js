@@ -6,9 +6,9 @@ import { isTaken, letterOf } from "#js/lib/keys.js";
  * @typedef {object} KeyPlayer
  * @property {() => void} togglePlay
  * @property {(by: number) => void} nudge        steps
- * @property {(step: number) => void} seek
  * @property {(by: number) => void} turn         episodes on or back
  * @property {(down: number, right: number) => void} look   to the next square
+ * @property {boolean} isLooking
  * @property {() => void} lookAway
  * @property {() => void} fillScreen
  */
@@ -44,9 +44,7 @@ function actionOf(player, event) {
   if (shiftKey && (down || right)) return () => player.look(down, right);
   if (right && !shiftKey) return () => player.nudge(right);
   if (key === " " && !event.repeat) return () => player.togglePlay();
-  if (key === "Home") return () => player.seek(0);
-  if (key === "End") return () => player.seek(Number.POSITIVE_INFINITY);
-  if (key === "Escape") return () => player.lookAway();
+  if (key === "Escape") return player.isLooking ? () => player.lookAway() : null;
   if (event.repeat) return null;
   if (key === ",") return () => player.turn(-1);
   if (key === ".") return () => player.turn(1);

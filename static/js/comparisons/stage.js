@@ -111,6 +111,10 @@ export class Stage {
     this.#looking.step(down, right);
   }
 
+  get isLooking() {
+    return this.#looking.isLooking;
+  }
+
   lookAway() {
     this.#looking.away();
   }
