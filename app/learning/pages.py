@@ -1,5 +1,6 @@
 """The page on which a person watches the learners learn."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -14,14 +15,13 @@ from app.learning import queries, service
 from app.learning.convert import describe_choice, describe_settings, snapshot_rankings, to_out, to_problem
 from app.learning.dependencies import RunFromPath, ShareKey
 from app.learning.presets import PRESETS
-from app.models import Run
+from app.models import Demonstration, Run
 from app.pages import PathState, path_state, render
 from app.rankings.convert import rankings_out
 from app.rankings.queries import newest
 from app.visitors import VisitorOrNone
 from app.worlds.convert import StoredWorld
 from app.worlds.dependencies import WorldFromPath
-from irl_core import LearningProblem
 
 router = APIRouter(include_in_schema=False)
 
@@ -74,7 +74,7 @@ def _page(session: Session, world: StoredWorld, visitor_id: str | None, run: Run
         "is_own": True,
         "key": None,
     }
-    return _with_choice(session, world, visitor_id, data, to_problem(world.world, kept, rankings, settings={}, seed=0))
+    return _with_choice(session, world, visitor_id, data, learned_from=(kept, rankings))
 
 
 def _shared_page(session: Session, world: StoredWorld, visitor_id: str | None, run: Run, key: str | None) -> LearnPage:
@@ -87,14 +87,20 @@ def _shared_page(session: Session, world: StoredWorld, visitor_id: str | None, r
         "is_own": False,
         "key": key,
     }
-    problem = to_problem(world.world, rows, run.rankings, settings={}, seed=0)
-    return _with_choice(session, world, visitor_id, data, problem)
+    return _with_choice(session, world, visitor_id, data, learned_from=(rows, run.rankings))
 
 
 def _with_choice(
-    session: Session, world: StoredWorld, visitor_id: str | None, data: dict[str, Any], problem: LearningProblem
+    session: Session,
+    world: StoredWorld,
+    visitor_id: str | None,
+    data: dict[str, Any],
+    *,
+    learned_from: tuple[Sequence[Demonstration], Mapping[str, Any]],
 ) -> LearnPage:
     """Add what a page says of the world, the learners and the settings."""
+    demonstrations, rankings = learned_from
+    problem = to_problem(world.world, demonstrations, rankings, settings={}, seed=0)
     data |= {
         "world": world.to_json(),
         "learners": describe_choice(problem),

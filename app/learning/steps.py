@@ -150,9 +150,9 @@ class _Stint:
         at_once, last = (1, math.inf) if n_states >= LARGE_WORLD else (5, FRAME_EVERY_SHARE * self.state.iteration)
         while self.state.outcome is None and time.monotonic() < until:
             self.state = self._timed(lambda: self.learner.advance(self.problem, self.state, iterations=at_once))
+            give_way()
             if self.state.iteration >= last:
                 break
-            give_way()
 
     def _show(self) -> None:
         frame = self.learner.frame(self.problem, self.state).to_json(digits=FRAME_DIGITS)

@@ -28,7 +28,7 @@ def no_other_library(monkeypatch):
 def test_migrating_and_serving_open_the_file_by_one_library(no_other_library, tmp_path):
     settings = make_settings(tmp_path)
     migrate(settings)
-    database, jobs = Database(settings), Jobs(settings.database_url)
+    database, jobs = Database(settings), Jobs(settings)
     jobs._client.check_connection()
     jobs.close()
     database.close()
