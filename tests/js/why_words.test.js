@@ -196,8 +196,11 @@ test("draws that are all alike claim no certainty", () => {
 });
 
 test("the method and the number of draws are told", () => {
-  assert.match(methodSentence(found()), /60 times from attempts drawn anew.*bootstrap, seed 7/);
-  assert.match(methodSentence(found({ method: "posterior", n_draws: 400 })), /400 draws of what it holds possible/);
+  assert.match(methodSentence(found()), /as many attempts.*\(bootstrap, 60 draws, seed 7\)/);
+  assert.match(
+    methodSentence(found({ method: "posterior", n_draws: 400 })),
+    /holds possible after the attempts \(posterior, 400 draws\)/,
+  );
 });
 
 test("a square is told in words: its step, the one before, its reward", () => {

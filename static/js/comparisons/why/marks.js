@@ -1,5 +1,5 @@
 /**
- * Some squares of a board marked: framed in two inks, of which one stands out from any square, or dimmed.
+ * Some squares of a board marked, below its arrows: framed in two inks, of which one stands out from any square, or dimmed.
  * @import {IrlBoard} from "#js/elements/irl-board.js"
  * @import {World} from "#js/board/state.js"
  */
@@ -15,8 +15,7 @@ export class Marks {
     this.#board = board;
     this.#world = world;
     this.#svg.setAttribute("viewBox", `0 0 ${world.cols} ${world.rows}`);
-    board.append(this.#svg);
-    board.addEventListener("board:changed", () => this.#fit());
+    board.addEventListener("board:changed", () => this.#place());
   }
 
   /** @param {readonly number[]} states */
@@ -33,14 +32,13 @@ export class Marks {
   /** @param {Element[]} marks */
   #draw(marks) {
     this.#svg.replaceChildren(...marks);
-    this.#fit();
+    this.#place();
   }
 
-  /** The frames lie on the squares, whatever size these have. */
-  #fit() {
-    const { rows, cols } = this.#world;
-    this.#svg.setAttribute("width", String(this.#board.cell * cols));
-    this.#svg.setAttribute("height", String(this.#board.cell * rows));
+  /** A board has its canvases once it is on the page. */
+  #place() {
+    const squares = this.#board.querySelector(".board-squares");
+    if (squares && squares.nextElementSibling !== this.#svg) squares.after(this.#svg);
   }
 }
 

@@ -22,9 +22,10 @@ const EDGE = 1;
  */
 export function whyPicture(world, { view, framed: states, dimmed, ends }, { title, note }) {
   const theme = paletteOf("light");
-  const board = boardFigure(world, view, { theme });
+  const board = boardFigure(world, view, { theme, layers: "squares" });
+  const ink = boardFigure(world, view, { theme, layers: "above" });
   const width = Math.max(NARROWEST, board.width);
-  const parts = [{ ...board, markup: board.markup + marks(world, { framed: states, dimmed }, theme) }];
+  const parts = [{ ...board, markup: board.markup + marks(world, { framed: states, dimmed }, theme) + ink.markup }];
   if (ends) {
     const sign = diverging(view.scale ?? symmetricRange(view.values ?? []), { theme, size: SIZE });
     parts.push(flow([{ before: ends[0], sign, words: ends[1] }], { width, theme, size: SIZE }));
@@ -33,7 +34,7 @@ export function whyPicture(world, { view, framed: states, dimmed, ends }, { titl
 }
 
 /**
- * What `marks.js` lays above the board, in the inks of paper.
+ * What `marks.js` lays between the squares and their arrows, in the inks of paper.
  * @param {World} world
  * @param {{ framed: readonly number[], dimmed: readonly number[] }} states
  * @param {import("#js/board/theme.js").Theme} theme

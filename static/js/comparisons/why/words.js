@@ -180,9 +180,10 @@ export function doubtSentence(found, { who, world }) {
 
 /** How that was found out. @param {Uncertainty} found */
 export function methodSentence({ method, n_draws, seed }) {
+  const draws = plural(n_draws, "draw");
   if (method === "posterior")
-    return `Found out from ${plural(n_draws, "draw")} of what it holds possible after the attempts (its posterior).`;
-  return `Found out by learning again ${plural(n_draws, "time")} from attempts drawn anew, successes and failures apart, some more than once and some not at all (bootstrap, seed ${seed}).`;
+    return `Each draw is a reward that it holds possible after the attempts (posterior, ${draws}).`;
+  return `Each draw has as many attempts, successes and failures apart, some of them more than once and some not at all (bootstrap, ${draws}, seed ${seed}).`;
 }
 
 /** False where no draw differed from another: one attempt of a kind, or all alike. @param {Uncertainty} found */
