@@ -68,13 +68,19 @@ def watching(context: BrowserContext, address: str, *, seed: int) -> tuple[Page,
     """A page on which a long run goes on."""
     page = context.new_page()
     client = walk.ContextClient(page, address)
-    world = client.post("/worlds", {"seed": seed})
-    journey.rank(client, world["id"], *journey.play(client, journey.Grid(world), world["id"]))
-    run: Json = client.post(f"/worlds/{world['id']}/runs", LONG)
+    run = asked(client, {"rows": 10, "cols": 10, "seed": seed}, LONG)
     page.goto(f"/runs/{run['id']}")
     expect(place(page)).to_have_attribute("data-status", "running", timeout=walk.LEARNING_MS)
     goes_on(page)
     return page, client, run["id"]
+
+
+def asked(client: walk.ContextClient, world: Json, run: Json) -> Json:
+    """Play and rank in a world by the API, and ask for a run."""
+    made = client.post("/worlds", world)
+    journey.rank(client, made["id"], *journey.play(client, journey.Grid(made), made["id"]))
+    answer: Json = client.post(f"/worlds/{made['id']}/runs", run)
+    return answer
 
 
 def place(page: Page) -> Any:

@@ -6,7 +6,7 @@ from playwright.sync_api import Browser, BrowserContext, Locator, Page, expect
 
 from tests.browser import walk
 from tests.browser.conftest import scripts_watched
-from tests.browser.test_learn_live import LONG, expect_truth, place, watching
+from tests.browser.test_learn_live import LONG, asked, expect_truth, place, watching
 from tests.live_server import LiveServer
 
 
@@ -48,7 +48,7 @@ def test_several_runs_go_on_at_once_and_are_cancelled_and_deleted_from_the_list(
 def test_a_shared_link_shows_others_the_same_learning_until_it_is_taken_back(
     page: Page, browser: Browser, base_url: str
 ) -> None:
-    _, run_id = walk.prepared(page, base_url, seed=72)
+    run_id = finished(page, base_url, seed=72)
     record = walk.ContextClient(page, base_url).get(f"/runs/{run_id}/frames")["frames"]
     n_frames = len({(frame["learner"], frame["iteration"]) for frame in record})
     expect(place(page)).to_have_attribute("data-frames", str(n_frames))
@@ -84,7 +84,7 @@ def test_a_shared_link_shows_others_the_same_learning_until_it_is_taken_back(
 
 
 def test_a_preset_sets_learners_and_settings_and_visits_show_the_difference(page: Page, base_url: str) -> None:
-    walk.prepared(page, base_url, seed=73)
+    finished(page, base_url, seed=73)
     presets = {one["name"]: one for one in walk.page_data(page)["presets"]}
     for name, preset in reversed(presets.items()):
         page.locator(f'[data-preset="{name}"]').click()
@@ -101,6 +101,14 @@ def test_a_preset_sets_learners_and_settings_and_visits_show_the_difference(page
     expect(panel.locator('[data-part="line"]')).to_contain_text(f"gap {largest} visits")
     page.locator('input[name="visits"][value="learned"]').check(force=True)
     expect(panel.locator('[data-part="highest"]')).to_have_text(str(reward))
+
+
+def finished(page: Page, address: str, *, seed: int) -> str:
+    """A page that shows a run of two learners that is done; the run's id."""
+    run = asked(walk.ContextClient(page, address), {"seed": seed}, {"learners": ["meirl", "irlfr"], "seed": 7})
+    page.goto(f"/runs/{run['id']}")
+    expect(place(page)).to_have_attribute("data-status", "done", timeout=walk.LEARNING_MS)
+    return str(run["id"])
 
 
 def line(page: Page, run_id: str) -> Locator:
