@@ -41,32 +41,12 @@ def entries_of(scores: Mapping[str, float], *, optimum: float = OPTIMUM) -> list
 
 
 def finish_run(
-    database: Path,
-    world_id: str,
-    visitor_id: str | None = None,
-    *,
-    minutes: int = 0,
-    more: Mapping[str, Any] | None = None,
-    **scores: float,
+    database: Path, world_id: str, scores: Mapping[str, float], *, visitor_id: str | None = None, minutes: int = 0
 ) -> str:
     """Store a run that is done, so many minutes after the first; without a visitor it is somebody new's."""
-    with closing(SQLITE.connect(database)) as connection, connection:
-        return store_run(connection, world_id, visitor_id, minutes=minutes, more=more, **scores)
-
-
-def store_run(
-    connection: Any,
-    world_id: str,
-    visitor_id: str | None = None,
-    *,
-    minutes: int = 0,
-    more: Mapping[str, Any] | None = None,
-    **scores: float,
-) -> str:
-    """The same within a transaction of the caller's."""
     run_id, whose = str(uuid.uuid4()), visitor_id or str(uuid.uuid4())
     at = (FIRST + timedelta(minutes=minutes)).strftime("%Y-%m-%d %H:%M:%S.%f")
-    comparison = {"seed": 1, "horizon": 98, "entries": entries_of(scores), **(more or {})}
+    comparison = {"seed": 1, "horizon": 98, "entries": entries_of(scores)}
     run = {
         "id": run_id,
         "world_id": world_id,
@@ -84,7 +64,8 @@ def store_run(
         "started_at": at,
         "finished_at": at,
     }
-    connection.execute("INSERT OR IGNORE INTO visitor (id, created_at) VALUES (?, ?)", (whose, at))
-    columns = ", ".join(run)
-    connection.execute(f"INSERT INTO run ({columns}) VALUES ({', '.join(f':{name}' for name in run)})", run)
+    with closing(SQLITE.connect(database)) as connection, connection:
+        connection.execute("INSERT OR IGNORE INTO visitor (id, created_at) VALUES (?, ?)", (whose, at))
+        columns = ", ".join(run)
+        connection.execute(f"INSERT INTO run ({columns}) VALUES ({', '.join(f':{name}' for name in run)})", run)
     return run_id

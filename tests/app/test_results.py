@@ -37,7 +37,10 @@ def me(client, worlds):
 
 @pytest.fixture
 def finish(settings):
-    return lambda *whose, **scores: finish_run(settings.database_path, *whose, **scores)
+    def finish(world_id, whose=None, *, minutes=0, **scores):
+        return finish_run(settings.database_path, world_id, scores, visitor_id=whose, minutes=minutes)
+
+    return finish
 
 
 def results(client, *world_ids):

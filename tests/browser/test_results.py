@@ -33,7 +33,7 @@ def test_a_class_plays_a_pooled_world_and_sees_its_result_without_names(page: Pa
     check_axe(page, "a class that waits")
 
     for k in range(3):
-        finish_run(server.database, world_id, **SCORES | {"irlr": 5.0 + k})
+        finish_run(server.database, world_id, SCORES | {"irlr": 5.0 + k})
     page.reload()
     expect(page.get_by_role("heading", level=1)).to_have_text(
         "Bayesian IRLFR came first most often: in 3 of 3 comparisons."
@@ -50,7 +50,7 @@ def test_ones_own_worlds_are_seen_together_and_taken_away(page: Page, server: Li
     worlds = [page.request.post("/api/v1/worlds", data={"seed": seed}).json()["id"] for seed in range(5, 9)]
     [cookie] = [one for one in page.context.cookies() if one["name"] == COOKIE]
     for k, world_id in enumerate(worlds):
-        finish_run(server.database, world_id, visitor_of(cookie["value"]), minutes=k, **SCORES)
+        finish_run(server.database, world_id, SCORES, visitor_id=visitor_of(cookie["value"]), minutes=k)
     page.goto("/")
     page.get_by_role("link", name="Your results").click()
     expect(page.get_by_role("heading", level=1)).to_have_text("Bayesian IRLFR came first most often: in 4 of 4 worlds.")

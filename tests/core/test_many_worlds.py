@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from irl_core import LEARNERS
@@ -122,14 +122,14 @@ def test_intervals_of_people_cover_what_they_should(n_people):
     rng = np.random.default_rng(2)
     units = np.repeat(np.arange(n_people), 3)
     shares, oftens = 0, 0
-    for sample in range(200):
+    for sample in range(100):
         earned = np.repeat(rng.normal(5.0, 2.0, n_people), 3) + rng.normal(0.0, 0.5, 3 * n_people)
         share = share_of_optimum(earned, np.full(3 * n_people, 10.0), units.tolist(), counts=drawn(sample))
         often = proportion((earned > 5.0).tolist(), units.tolist())
         shares += share.low <= 0.5 <= share.high
         oftens += often.low <= 0.5 <= often.high
-    assert 180 <= shares <= 200
-    assert 180 <= oftens <= 200
+    assert 89 <= shares <= 100
+    assert 89 <= oftens <= 100
 
 
 def test_table_one_counts_only_comparisons_with_all_of_the_papers_learners():
@@ -156,6 +156,7 @@ ROWS = st.lists(st.builds(lambda unit, scores: measured(unit, **scores), st.inte
 
 
 @given(ROWS)
+@settings(max_examples=40)
 def test_places_votes_and_pairs_agree_with_counting(rows):
     seen = look_over(rows)
     for one in seen.standings:
@@ -172,6 +173,7 @@ def test_places_votes_and_pairs_agree_with_counting(rows):
 
 
 @given(ROWS, st.randoms())
+@settings(max_examples=25)
 def test_the_order_of_comparisons_changes_no_count(rows, random):
     shuffled = list(rows)
     random.shuffle(shuffled)
