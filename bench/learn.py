@@ -1,8 +1,8 @@
 """Learn: how long a person waits, in a real browser on the real server, and what comes of a hundred who watch.
 
-A wait ends with the task right after the frame that shows what was waited for. Each run is of a fresh 7×7 world,
-where three successes and three failures were played and ordered by the API. The first time of everything is not
-counted: it loads what later ones find there.
+A wait ends with the task right after the frame that shows what was waited for. Each run is a new visitor's, who has
+played three successes and three failures in a 7×7 world and ordered them, by the API. The first time of everything is
+not counted: it loads what later ones find there.
 """
 
 import statistics
@@ -55,9 +55,7 @@ def measure() -> Iterator[Figure]:
 
 
 def _measure_learning(browser: Browser, server: LiveServer) -> Iterator[Figure]:
-    context = _visit(browser, server)
-    waits = [_press_learn(context, server) for _ in range(N_RUNS + 1)][1:]
-    context.close()
+    waits = [_press_learn(browser, server) for _ in range(N_RUNS + 1)][1:]
     title, spread = f"7×7, pressing Learn, {len(DEFAULT_LEARNERS)} learners", _spread
     frame, done = [wait.frame for wait in waits], [wait.done for wait in waits]
     comparison, server_ms = [wait.comparison for wait in waits], [wait.server for wait in waits]
@@ -75,9 +73,10 @@ def _measure_learning(browser: Browser, server: LiveServer) -> Iterator[Figure]:
     yield at_most(name, ratios, target=MOST_OVERHEAD, unit="×", reference=reference)
 
 
-def _press_learn(context: BrowserContext, server: LiveServer) -> Wait:
+def _press_learn(browser: Browser, server: LiveServer) -> Wait:
+    context = _visit(browser, server)
     page = context.new_page()
-    world_id = _ordered_world(page, server)
+    world_id = prepare(walk.ContextClient(page, server.address))
     page.goto(f"/worlds/{world_id}/learn")
     learn = page.locator('[data-action="learn"]')
     learn.hover()  # waits until it can be pressed
@@ -93,7 +92,7 @@ def _press_learn(context: BrowserContext, server: LiveServer) -> Wait:
     page.wait_for_url("**/comparison*", wait_until="commit")
     comparison: float = page.evaluate(asked, [seen["pressedAt"], rows])
     server_ms, compute_ms = _time_on_server(page, server, world_id)
-    page.close()
+    context.close()
     return Wait(seen["frame"], seen["done"], comparison, server_ms, compute_ms)
 
 
@@ -110,7 +109,7 @@ def _time_on_server(page: Page, server: LiveServer, world_id: str) -> tuple[floa
 def _measure_drops(browser: Browser, server: LiveServer) -> Iterator[Figure]:
     context = _visit(browser, server)
     page = context.new_page()
-    ranking.open_lists(page, _ordered_world(page, server), n_cards=6)
+    ranking.open_lists(page, prepare(walk.ContextClient(page, server.address)), n_cards=6)
     page.locator("#policy[data-shown]").wait_for()
     heard: list[dict[str, Any]] = []
 
@@ -149,11 +148,6 @@ def _visit(browser: Browser, server: LiveServer) -> BrowserContext:
     context = browser.new_context(base_url=server.address, viewport={"width": 1280, "height": 800})
     context.add_init_script(path=WATCH)
     return context
-
-
-def _ordered_world(page: Page, server: LiveServer) -> str:
-    """A fresh world in which everything is ready to learn from; its id."""
-    return prepare(walk.ContextClient(page, server.address))
 
 
 def _spread(waits: list[float]) -> str:

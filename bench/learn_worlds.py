@@ -11,7 +11,7 @@ LONG: Final = {"iterations": 40_000, "tolerance": 1e-12}
 
 
 def prepare(client: journey.Client) -> str:
-    """A fresh 7×7 world with three successes and three failures that reach the goal, and an order of each; its id."""
+    """Three successes and three failures that reach the goal of a 7×7 world, and an order of each; the world's id."""
     world = client.post("/worlds", {"seed": SEED})
     grid = journey.Grid(world)
     wise = grid.cheapest_path([max(-reward, 0.0) for reward in grid.rewards])
