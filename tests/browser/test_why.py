@@ -88,9 +88,9 @@ def check_changes_by_keyboard(page: Page, asked: list[Request]) -> None:
     assert asked[-1].post_data_json == {"learner": "irlfr", "change": {"relabel": second}}
     page.keyboard.press("Tab")
     page.keyboard.type("the 1st")
-    expect(sentence(page, "what-if")).to_contain_text("With your 2nd success and 1st success in each other's place, ")
+    expect(sentence(page, "what-if")).to_contain_text("With your 2nd success and 1st success trading places, ")
     assert asked[-1].post_data_json["change"]["swap"][0] == second
-    expect(page.locator("#announcer")).to_contain_text("in each other's place")
+    expect(page.locator("#announcer")).to_contain_text("trading places")
 
 
 def check_the_newest_wins(page: Page) -> None:

@@ -110,12 +110,30 @@ test("the newest question wins: the answer to an older one is never heard", asyn
   assert.deepEqual(heard, ["wait", "wait", "to the new"]);
 });
 
-test("a question that was answered is answered at once, without the server", async () => {
+test("what was answered is not asked again: its answer stands, or comes back at once", async () => {
   const { asking, heard } = listening();
+  const never = () => assert.fail("asked again");
   asking.ask("one", async () => "first");
   await settled();
-  asking.ask("one", () => assert.fail("asked again"));
-  assert.deepEqual(heard, ["wait", "first", "first"]);
+  asking.ask("one", never);
+  asking.ask("two", async () => "second");
+  await settled();
+  asking.ask("one", never);
+  asking.stop();
+  asking.ask("one", never);
+  assert.deepEqual(heard, ["wait", "first", "wait", "second", "first", "first"]);
+});
+
+test("who goes back to the answer that stands does not wait for the other any more", async () => {
+  const { asking, heard } = listening();
+  const { waiting, send } = slowServer();
+  asking.ask("one", async () => "first");
+  await settled();
+  asking.ask("two", send);
+  asking.ask("one", send);
+  waiting[0].resolve("second");
+  await settled();
+  assert.deepEqual([waiting.length, heard], [1, ["wait", "first", "wait", "first"]]);
 });
 
 test("a question under way is not asked twice", async () => {

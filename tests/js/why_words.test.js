@@ -144,7 +144,7 @@ test("a what-if says what turns, what it would earn, and what it earns", () => {
   );
   assert.equal(
     whatIfSentence(answer({ swap: ["b", "a"] }, { expected_return: 5.21 }), attempts, about),
-    "With your 1st success and 2nd success in each other's place, 2 of 8 arrows turn and IRLFR would earn about as much: 5.2.",
+    "With your 1st success and 2nd success trading places, 2 of 8 arrows turn and IRLFR would earn about as much: 5.2.",
   );
 });
 

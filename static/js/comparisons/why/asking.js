@@ -28,6 +28,8 @@ export class Asking {
   #known = new Map();
   /** @type {{ name: string, send: Send } | null} the question that has no answer yet */
   #open = null;
+  /** The question whose answer was heard last. */
+  #heard = "";
 
   /** @param {Listener<Answer>} listener @param {number[]} [pausesMs] */
   constructor(listener, pausesMs = PAUSES_MS) {
@@ -40,10 +42,11 @@ export class Asking {
    * @param {Send} send
    */
   ask(name, send) {
-    if (this.#open?.name === name && !this.#call.signal.aborted) return;
-    this.stop();
+    const isUnderWay = this.#open?.name === name && !this.#call.signal.aborted;
+    if (isUnderWay || (!this.#open && this.#heard === name)) return;
+    this.#drop();
     const known = this.#known.get(name);
-    if (known !== undefined) return this.#listener.answer(known);
+    if (known !== undefined) return this.#tell(name, known);
     this.#open = { name, send };
     void this.#send();
   }
@@ -54,10 +57,21 @@ export class Asking {
     if (this.#open) void this.#send();
   }
 
-  /** What is under way is no longer wanted. */
+  /** Neither what is under way nor what was heard is wanted any more. */
   stop() {
+    this.#drop();
+    this.#heard = "";
+  }
+
+  #drop() {
     this.#call.abort();
     this.#open = null;
+  }
+
+  /** @param {string} name @param {Answer} answer */
+  #tell(name, answer) {
+    this.#heard = name;
+    this.#listener.answer(answer);
   }
 
   async #send() {
@@ -70,7 +84,7 @@ export class Asking {
       if (call.signal.aborted) return;
       this.#open = null;
       this.#known.set(name, answer);
-      this.#listener.answer(answer);
+      this.#tell(name, answer);
     } catch (error) {
       if (call.signal.aborted) return;
       call.abort(); // over: the same question may be asked again

@@ -83,14 +83,15 @@ export class Panel {
 
   /** @param {Trouble} trouble */
   #fail({ sentence, mayRetry }) {
-    this.#settle(this.#details.dataset.state ?? "empty");
+    // An answer to another question may stand there still; it fades.
+    this.#settle(this.#details.dataset.state === "empty" ? "empty" : "outdated");
     this.part("trouble").hidden = false;
     this.part("trouble-words").textContent = sentence;
     this.part("again").hidden = !mayRetry;
     announce(sentence);
   }
 
-  /** @param {string} state "empty" or "answered" */
+  /** @param {"empty" | "answered" | "outdated"} state */
   #settle(state) {
     clearTimeout(this.#timer);
     this.#details.dataset.asking = "false";

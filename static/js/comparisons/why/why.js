@@ -36,6 +36,7 @@ export class Why {
     this.#root.hidden = !this.#who;
     if (!this.#who) return;
     this.#part("learners").append(...this.#about.learners.map((who) => this.#chip(who)));
+    this.#tick(this.#who);
     this.#parts = {
       mattered: new Mattered(this.#part("mattered"), this.#about, signal),
       "what-if": new WhatIf(this.#part("what-if"), this.#about, () => this.#ask(), signal),
@@ -72,11 +73,15 @@ export class Why {
   #ask() {
     const [parts, who] = [this.#parts, this.#who];
     if (!parts || !who) return;
-    const chosen = this.#part("learners").querySelector(`input[value="${who.name}"]`);
-    /** @type {HTMLInputElement} */ (chosen).checked = true;
+    this.#tick(who);
     const open = PARTS.filter((part) => parts[part].panel.isOpen);
     for (const part of open) parts[part].ask(who);
     this.#write({ learner: who.name, open, change: parts["what-if"].change });
+  }
+
+  /** @param {Asked} who */
+  #tick({ name }) {
+    this.#part("learners").querySelector(`input[value="${name}"]`).checked = true;
   }
 
   /** @param {Shown} shown */

@@ -140,7 +140,7 @@ export function whatIfSentence({ change, difference, before, expected_return }, 
 export function conditionWords(change, attempts, voice) {
   const name = (/** @type {string} */ id) => namesOf([{ id }], attempts)[0];
   if ("drop" in change) return `Without ${voice.your} ${name(change.drop)}`;
-  if ("swap" in change) return `With ${voice.your} ${listed(change.swap.map(name))} in each other's place`;
+  if ("swap" in change) return `With ${voice.your} ${listed(change.swap.map(name))} trading places`;
   const other = attempts.find(({ id }) => id === change.relabel)?.outcome === "success" ? "failure" : "success";
   return `With ${voice.your} ${name(change.relabel)} called a ${other}`;
 }
