@@ -20,7 +20,7 @@ from app.learning.schemas import RunIn
 from app.models import Demonstration, Run
 from app.rankings import queries as rankings
 from app.worlds.convert import StoredWorld
-from irl_core import DEFAULT_LEARNERS, LEARNERS, MissingDemonstrations
+from irl_core import DEFAULT_LEARNERS, LEARNERS, LearningProblem, MissingDemonstrations
 
 CANCELLED = "You cancelled this run."
 
@@ -37,9 +37,7 @@ def learn_later(session: Session, jobs: Jobs, *, world: StoredWorld, visitor_id:
     groups = current_rankings(session, visitor_id, world.id, kept)
     seed = secrets.randbelow(2**31) if asked.seed is None else asked.seed
     problem = to_problem(world.world, kept, groups, settings=asked.settings, seed=seed)
-    for name in names:
-        if sentence := missing(problem, LEARNERS[name]):
-            raise MissingDemonstrations(sentence, field="learners")
+    _check_can_learn(names, problem)
     run = Run(
         id=str(uuid.uuid4()),
         world_id=world.id,
@@ -106,6 +104,15 @@ def _check_names(names: Sequence[str]) -> None:
     if len(set(names)) < len(names):
         message = "A learner is named twice; once is enough."
         raise Unprocessable(message, fields={"learners": "must not repeat"})
+
+
+def _check_can_learn(names: Sequence[str], problem: LearningProblem) -> None:
+    """Refuse a learner that lacks something, and say who could learn from what there is."""
+    for name in names:
+        if sentence := missing(problem, LEARNERS[name]):
+            able = [learner.title for learner in LEARNERS.values() if not missing(problem, learner)]
+            others = f" As it stands, these can learn: {', '.join(able)}." if able else ""
+            raise MissingDemonstrations(f"{sentence}{others}", field="learners")
 
 
 def _covers(order: Sequence[Sequence[str]], kept: Sequence[Demonstration], outcome: str) -> bool:
