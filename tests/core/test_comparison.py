@@ -16,7 +16,7 @@ from irl_core import (
     optimum,
     simulate,
 )
-from irl_core.comparison import places
+from irl_core.comparison import HumanAttempts, places
 from tests import recomputed
 from tests.core.examples import DOWN, RIGHT, UP, make_problem, make_world
 
@@ -126,7 +126,7 @@ def test_one_attempt_is_both_best_and_mean_and_has_no_interval(problem):
     one = problem.demonstrations[3]
     found = compare(problem.world, [one], [], seed=0)
     human = entry(found, "human")
-    assert (found.human.best, found.human.mean) == (one.id, one.id)
+    assert found.human == HumanAttempts(best=one.id, mean=one.id)
     assert (human.interval_low, human.interval_high, human.standard_error) == (None, None, 0.0)
     assert found.tests == ()
     assert compare(problem.world, [], [], seed=0).human is None
