@@ -181,16 +181,18 @@ def doctor() -> None:
 
 def _listen(settings: Settings) -> socket.socket:
     """Take the port before anything else is started, so that a port in use costs nothing."""
-    is_v6 = ":" in settings.host
+    family = socket.AF_INET6 if ":" in settings.host else socket.AF_INET
     try:
-        return socket.create_server(
-            (settings.host, settings.port), family=socket.AF_INET6 if is_v6 else socket.AF_INET, backlog=2048
-        )
+        listener = socket.create_server((settings.host, settings.port), family=family, backlog=2048)
+        # Connections inherit it. Without it the second half of an answer waits 40 ms for the first half's receipt:
+        # asyncio sees to that only on sockets that name their protocol, which those made here do not.
+        listener.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
     except OSError as error:
         _refuse(
             f"Cannot listen on {_address(settings)}: {error.strerror}.\n"
             f"Another server may be running there; choose another port: irlfr serve --port {settings.port + 1}"
         )
+    return listener
 
 
 def _address(settings: Settings) -> str:
