@@ -21,8 +21,8 @@ def show_results(results: ResultsFromQuery) -> ResultsOut:
     """Show what the latest finished comparison of each of your worlds says, taken together.
 
     With `world` (once for each of up to 20): what the latest finished comparisons of everybody say, in worlds that pool
-    their results. Nobody is named, and a world is shown only from three people on; one that does not pool is refused
-    (422 `not_pooled`).
+    their results. Nobody is named, and worlds, learners and pairs are shown only from three people on; a world that
+    pools nothing is refused (422 `not_pooled`).
     """
     return results
 

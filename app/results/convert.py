@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
@@ -23,10 +23,13 @@ from irl_core.learners import LEARNERS
 from irl_core.many_worlds import Duel, Measured, Overview, Proportion, Standing, TableOne, look_over
 from irl_core.many_worlds.duels import shared_places
 
+LEAST_PEOPLE: Final = 3
+"""Of fewer people nothing is shown: somebody who knows their own figures would read another's."""
+
 
 def overview_of(comparisons: Sequence[Finished], voice: Voice) -> Overview:
     """Take comparisons together; worlds are independent within a person's, people within everybody's."""
-    return look_over(
+    measured = (
         Measured(
             unit=one.world_id if voice.unit == "world" else one.visitor_id,
             optimum=optimum_of(one),
@@ -35,12 +38,17 @@ def overview_of(comparisons: Sequence[Finished], voice: Voice) -> Overview:
         )
         for one in comparisons
     )
+    return look_over(measured, least_units=LEAST_PEOPLE if voice.unit == "person" else 1)
 
 
 def titles_of(overview: Overview, voice: Voice) -> dict[str, str]:
     """What everybody is called within a sentence; a learner of another version goes by its name."""
     titles = {name: learner.title for name, learner in LEARNERS.items()}
-    return {**{one.who: one.who for one in overview.standings}, **titles, HUMAN: voice.human}
+    return {
+        **{who: who for who in (*(one.who for one in overview.standings), *overview.left_out)},
+        **titles,
+        HUMAN: voice.human,
+    }
 
 
 def optimum_of(one: Finished) -> float:

@@ -1,7 +1,7 @@
 """Results over many worlds: one's own, and everybody's in worlds that pool them.
 
-Everybody's are shown without names, and a world only from three people on: with fewer, somebody who knows their own
-would read another's.
+Everybody's are shown without names, and a world, a learner or a pair of learners only from three people on: with fewer,
+somebody who knows their own would read another's.
 """
 
 from collections import Counter
@@ -11,12 +11,12 @@ from typing import Any, Final, TypeAlias
 from app.db import Database
 from app.errors import NotFound, Unprocessable
 from app.results import convert, queries, words
+from app.results.convert import LEAST_PEOPLE
 from app.results.queries import Finished
 from app.results.schemas import ResultsOut, WorldResultOut
 from app.results.words import OWN, POOLED, Voice
 from irl_core.many_worlds import LEAST_UNITS, Overview
 
-LEAST_PEOPLE: Final = 3
 MOST_WORLDS: Final = 20
 
 Spec: TypeAlias = Mapping[str, Any]

@@ -51,7 +51,12 @@ def headline(overview: Overview, titles: Mapping[str, str], voice: Voice) -> str
 
 def remarks(overview: Overview, titles: Mapping[str, str], voice: Voice) -> list[str]:
     """Say what a reader should know before believing the figures."""
-    said = [_few(overview.n_units), _line_ups(overview), _beyond_chance(overview, titles, voice)]
+    said = [
+        _few(overview.n_units),
+        _line_ups(overview),
+        _left_out(overview, titles),
+        _beyond_chance(overview, titles, voice),
+    ]
     return [one for one in said if one]
 
 
@@ -69,6 +74,13 @@ def _line_ups(overview: Overview) -> str:
         "Not every comparison had the same learners: each is counted where it took part, and a pair where both did;"
         " a place is among those who were there."
     )
+
+
+def _left_out(overview: Overview, titles: Mapping[str, str]) -> str:
+    if not overview.left_out:
+        return ""
+    names = listed([titles[who] for who in overview.left_out])
+    return f"Left out, since fewer than three people had them learn: {names}."
 
 
 def _beyond_chance(overview: Overview, titles: Mapping[str, str], voice: Voice) -> str:

@@ -70,25 +70,34 @@ class Duel:
 
 @dataclass(frozen=True)
 class Overview:
-    """What many comparisons say together. `table_one` is None where never all of the paper's learners took part."""
+    """What many comparisons say together. `table_one` is None where never all of the paper's learners took part.
+
+    `left_out` are those of whom too few units tell.
+    """
 
     n: int
     n_units: int
     standings: tuple[Standing, ...]
     duels: tuple[Duel, ...]
     table_one: TableOne | None
+    left_out: tuple[str, ...] = ()
 
     def standing(self, who: str) -> Standing:
         """Find the standing of one who took part. Raises StopIteration for others."""
         return next(one for one in self.standings if one.who == who)
 
 
-def look_over(comparisons: Iterable[Measured], *, seed: int = 0) -> Overview:
-    """Take comparisons together, in whatever order. `seed` is for the resamples."""
+def look_over(comparisons: Iterable[Measured], *, seed: int = 0, least_units: int = 1) -> Overview:
+    """Take comparisons together, in whatever order. `seed` is for the resamples.
+
+    Who took part in fewer than `least_units` units is left out, as are pairs who met in fewer: where units are people,
+    the figures of one would be that person's.
+    """
     listed = list(comparisons)
     if not listed:
         return Overview(0, 0, (), (), None)
-    names = _in_order({who for one in listed for who in one.expected})
+    everybody = _in_order({who for one in listed for who in one.expected})
+    names = [who for who in everybody if len({one.unit for one in listed if who in one.expected}) >= least_units]
     units = _numbered([one.unit for one in listed])
     optima: Vector = np.array([one.optimum for one in listed])
     expected = _scores([one.expected for one in listed], names)
@@ -96,8 +105,9 @@ def look_over(comparisons: Iterable[Measured], *, seed: int = 0) -> Overview:
         n=len(listed),
         n_units=len(set(units)),
         standings=_standings(names, expected, optima, units, seed=seed),
-        duels=_all_duels(names, expected, optima, units),
-        table_one=_table_one(listed, units),
+        duels=_all_duels(names, expected, optima, units, least_units=least_units),
+        table_one=_table_one(listed, units, least_units=least_units),
+        left_out=tuple(who for who in everybody if who not in names),
     )
 
 
@@ -138,8 +148,11 @@ def _standings(
     return tuple(standings)
 
 
-def _all_duels(names: Sequence[str], scores: Matrix, optima: Vector, units: Sequence[int]) -> tuple[Duel, ...]:
+def _all_duels(
+    names: Sequence[str], scores: Matrix, optima: Vector, units: Sequence[int], *, least_units: int
+) -> tuple[Duel, ...]:
     wins, ties = duels(scores, optima)
+    meets = wins | wins.transpose(0, 2, 1) | ties
     found = [
         _duel(
             names[i],
@@ -150,10 +163,10 @@ def _all_duels(names: Sequence[str], scores: Matrix, optima: Vector, units: Sequ
             units=units,
         )
         for i, j in combinations(range(len(names)), 2)
+        if len({units[k] for k in np.flatnonzero(meets[:, i, j]).tolist()}) >= max(1, least_units)
     ]
-    met = [duel for duel in found if duel.n > 0]
-    adjusted = holm([duel.p_value for duel in met])
-    return tuple(replace(duel, p_adjusted=p_adjusted) for duel, p_adjusted in zip(met, adjusted, strict=True))
+    adjusted = holm([duel.p_value for duel in found])
+    return tuple(replace(duel, p_adjusted=p_adjusted) for duel, p_adjusted in zip(found, adjusted, strict=True))
 
 
 def _duel(a: str, b: str, wins: Sequence[bool], losses: Sequence[bool], *, n_ties: int, units: Sequence[int]) -> Duel:
@@ -165,10 +178,10 @@ def _duel(a: str, b: str, wins: Sequence[bool], losses: Sequence[bool], *, n_tie
     return Duel(a, b, sum(wins) + sum(losses) + n_ties, sum(wins), sum(losses), n_for, n_against, p_value, p_value)
 
 
-def _table_one(comparisons: Sequence[Measured], units: Sequence[int]) -> TableOne | None:
+def _table_one(comparisons: Sequence[Measured], units: Sequence[int], *, least_units: int) -> TableOne | None:
     names = papers_learners(list(LEARNERS))
     complete = [i for i, one in enumerate(comparisons) if {HUMAN, *names} <= one.played.keys()]
-    if not complete:
+    if len({units[i] for i in complete}) < max(1, least_units):
         return None
     returns = _scores([comparisons[i].played for i in complete], names)
     human: Vector = np.array([comparisons[i].played[HUMAN] for i in complete])

@@ -184,6 +184,21 @@ def test_a_world_with_fewer_people_stays_out_of_the_pool_of_others(client, poole
     assert counts(found)["meirl"] == [0, 0, 0, 3]
 
 
+def test_a_learner_that_fewer_than_three_people_had_is_left_out_of_the_pool(client, pooled, finish):
+    """Its figures, and how the players did against it, would be those of one person."""
+    for k in range(4):
+        others = {"trex": 9.0} if k == 0 else {"bc": 1.0} if k < 3 else {}
+        finish(pooled, f"person {k}", **PAPER | others)
+    found = results(client, pooled)
+    assert {one["who"] for one in found["standings"]} == set(PAPER)
+    assert {name for one in found["duels"] for name in (one["a"], one["b"])} == set(PAPER)
+    assert counts(found)["irlfr"] == [4], "places are among those who are shown"
+    assert (
+        "Left out, since fewer than three people had them learn: T-REX (linear) and Behavioural cloning."
+        in found["remarks"]
+    )
+
+
 def test_a_person_with_several_worlds_votes_once(client, pooled, finish):
     other = make_world(client, seed=6, pooled=True)["id"]
     for k in range(4):

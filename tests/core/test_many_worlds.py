@@ -132,6 +132,16 @@ def test_intervals_of_people_cover_what_they_should(n_people):
     assert 89 <= oftens <= 100
 
 
+def test_of_too_few_units_nothing_is_told():
+    """IRLR took part in two units and IRLFR in three, who met MEIRL in three and IRLF in two."""
+    rows = [measured(k, meirl=1.0, irlfr=2.0, **({"irlr": 3.0} if k < 2 else {})) for k in (0, 1, 2, 2)]
+    rows += [measured(k, irlf=1.0, **({"irlfr": 2.0} if k < 3 else {})) for k in (1, 2, 3)]
+    seen = look_over(rows, least_units=3)
+    assert seen.left_out == ("irlr",)
+    assert [(one.a, one.b) for one in seen.duels] == [("meirl", "irlfr")]
+    assert seen.standing("irlfr").places[0].count == 6, "places are among those who are told of"
+
+
 def test_table_one_counts_only_comparisons_with_all_of_the_papers_learners():
     full = {"human": 0.0, "meirl": 1.0, "irlr": 4.0, "irlf": 2.0, "irlfr": 4.0}
     rows = [
