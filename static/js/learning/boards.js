@@ -46,7 +46,7 @@ export class Boards {
     this.#given.material = material;
     this.lineUp.material = material;
     this.#given.showNumbers(layers.numbers);
-    this.#say("colours", this.#colours(layers.visits));
+    this.#paintKey(layers.visits);
     if (!watched) return;
     const { progress, store, run } = watched;
     for (const panel of this.lineUp.panels) {
@@ -64,10 +64,12 @@ export class Boards {
     }
   }
 
-  /** What the colours of the learners' boards mean. @param {Visits} visits */
-  #colours(visits) {
-    if (visits !== "difference") return "learned reward";
-    return `visits: the learner’s minus ${this.#data.is_own === false ? "the player’s" : "yours"}`;
+  /** What colours and discs on the learners' boards mean. @param {Visits} visits */
+  #paintKey(visits) {
+    const yours = this.#data.is_own === false ? "the player’s" : "yours";
+    this.#say("colours", visits === "difference" ? `visits: the learner’s minus ${yours}` : "learned reward");
+    this.#say("discs-words", `visits: ${visits === "yours" ? `${yours}, in successes` : "the learner’s"}`);
+    this.#part("discs").hidden = visits !== "learned" && visits !== "yours";
   }
 
   /** @returns {Layers} */

@@ -2,7 +2,7 @@
  * Runs in words: why one waits, how one stands, and in what its settings differ from the defaults.
  * @import {LearnerInfo, Preset, Run, SettingInfo, WorkerState} from "#js/learning/types.js"
  */
-import { listed, significant } from "#js/charts/figures.js";
+import { listed } from "#js/charts/figures.js";
 import { plural } from "#js/lib/format.js";
 
 const MINUTE_MS = 60_000;
@@ -84,7 +84,7 @@ export function agoInWords(at, now = Date.now()) {
 
 /** How long a learner itself computed: "4 ms", "0.31 s", "2 min 5 s". @param {number} ms */
 export function durationInWords(ms) {
-  if (ms < 100) return `${significant(Math.max(1, Math.round(ms)))} ms`;
+  if (ms < 100) return `${Math.max(1, Math.round(ms))} ms`;
   if (ms < 99_500) return `${(ms / 1000).toPrecision(2)} s`;
   const seconds = Math.round(ms / 1000);
   return `${Math.floor(seconds / 60)} min ${seconds % 60} s`;
