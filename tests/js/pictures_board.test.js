@@ -62,6 +62,12 @@ test("a legend names only what is on the board", () => {
   assert.deepEqual(words({}), ["0 to −1 a step", "−1 to −7, hatched", "goal +6", "wall", "start"]);
   const learned = words({ values: [-2, 1, 0, 0, 0, 0, 0, 0, 1], unknown: Array(9).fill(true) });
   assert.deepEqual(learned, ["−2.0", "+2.0 learned reward, on a scale of its own", "start", "no attempt came here"]);
+  const lost = boardPicture(
+    world,
+    { values: [-3, ...Array(8).fill(0)] },
+    { title: "Lost", values: "reward lost", theme },
+  );
+  assert.match(lost, />−3\.0<.*>0 reward lost</);
 });
 
 test("inks are written as six digits and an opacity", () => {

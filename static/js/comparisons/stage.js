@@ -45,7 +45,8 @@ export class Stage {
       const { who } = role.entry;
       const unknown = isLearner(role.entry) ? unknownTo(who) : null;
       const panel = new AgentPanel(template, { role, world, comparison, result: run.learners[who], unknown });
-      panel.save.append(saveMenu(panel.board, { title: role.title }));
+      const values = () => (this.#ground === "lost" ? "reward lost from there on, against the optimum" : "");
+      panel.save.append(saveMenu(panel.board, { title: role.title, values }));
       return panel;
     });
     this.#looking = new Looking(world, {

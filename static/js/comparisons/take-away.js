@@ -11,11 +11,8 @@ import { ShareLink } from "#js/comparisons/share-link.js";
 import { announce } from "#js/lib/announce.js";
 import { copyText } from "#js/lib/clipboard.js";
 import { runApi } from "#js/lib/run-address.js";
-import { comparisonSvg } from "#js/pictures/comparison.js";
 import { comparisonData } from "#js/pictures/comparison-data.js";
-import { titleOf } from "#js/pictures/comparison-words.js";
 import { saveFile } from "#js/pictures/files.js";
-import { walksFilm } from "#js/pictures/film.js";
 import "#js/pictures/save-menu.js";
 
 /** The software says its version in the caption; it needs no place among the methods. */
@@ -56,9 +53,9 @@ export class TakeAway {
     const drawn = comparisonData(this.#data, { unknownTo: this.#unknownTo, episode, citations });
     return {
       name: `irlfr-${this.#data.run.id.slice(0, 8)}-comparison`,
-      title: titleOf(drawn),
-      svg: () => comparisonSvg(drawn),
-      film: walksFilm(drawn),
+      title: "the comparison",
+      svg: async () => (await import("#js/pictures/comparison.js")).comparisonSvg(drawn),
+      film: import("#js/pictures/film.js").then(({ walksFilm }) => walksFilm(drawn)),
     };
   }
 

@@ -1,6 +1,6 @@
 /**
- * Films of walks: everybody's way through the world in step, as on the stage. `walksFilm(data)` is the `film` of a `<save-menu>`;
- * `walkFilm(world, walks)` films any walks, one board or several.
+ * Films of walks: everybody's way through the world in step, as on the stage. `walksFilm({ world, walks })` is the `film` of a
+ * `<save-menu>`, for one board or several.
  *
  * The squares are painted once; each step adds what is above them. At most 640 pixels wide and 12 seconds long.
  */
@@ -31,10 +31,10 @@ const MOST_FRAMES = 120;
 const [GAP, MARGIN, TYPE] = [12, 10, 11.5];
 const MOST_IN_A_ROW = 4;
 
-/** @param {{world: World, walks: Walk[]}} data @returns {Film} */
-export function walksFilm({ world, walks }) {
+/** @param {{world: World, walks: Walk[]}} data @returns {Promise<Film>} */
+export async function walksFilm({ world, walks }) {
   return {
-    kinds: canWebm() ? ["gif", "webm"] : ["gif"],
+    kinds: (await canWebm()) ? ["gif", "webm"] : ["gif"],
     make: async (kind, watch) => {
       const reel = await reelOf(world, walks);
       return kind === "gif" ? encodeGif(reel, watch) : encodeWebm(reel, watch);

@@ -13,7 +13,7 @@ import { textWidth } from "#js/pictures/text-width.js";
 /** @typedef {import("#js/board/theme.js").Theme} Theme */
 /** @typedef {import("#js/board/colours.js").Rgb} Rgb */
 /** @typedef {import("#js/pictures/svg.js").Figure} Figure */
-/** @typedef {{width: number, theme: Theme, size: number}} Room   how wide a legend may be, and its type */
+/** @typedef {{width: number, theme: Theme, size: number, values?: string}} Room   how wide a legend may be, its type, what the values are */
 /** @typedef {{sign: Figure, words: string, before?: string}} Item   a word before the sign, words after it */
 
 const STEPS = 24;
@@ -26,7 +26,7 @@ export function legendSvg(world, view, { width = 560, theme = "light", size = 12
 /** @param {World} world @param {Partial<View>} view @param {Room} room @returns {Figure} */
 export function legendFigure(world, view, room) {
   const whole = { ...EMPTY_VIEW, ...view };
-  const ground = whole.values ? [learnedItem(whole, room)] : trueItems(world, room);
+  const ground = whole.values ? [valuesItem(whole, room)] : trueItems(world, room);
   return flow([...ground, ...inkItems(world, whole, room)], room);
 }
 
@@ -44,11 +44,18 @@ export function trueItems(world, room) {
   return items;
 }
 
-/** What a learner believes. @param {View} view @param {Room} room @returns {Item} */
-function learnedItem(view, room) {
-  const range = view.scale ?? symmetricRange(view.values ?? []);
-  const words = `${range[1] > 0 ? "+" : ""}${figureOf(range[1])} learned reward, on a scale of its own`;
-  return { before: figureOf(range[0]), sign: diverging(range, room), words };
+/** What a learner believes, or what else the values are; one that is never above nothing has one arm. @param {View} view @param {Room} room @returns {Item} */
+function valuesItem(view, room) {
+  const values = view.values ?? [];
+  const [low, high] = view.scale ?? symmetricRange(values);
+  const isLoss = Boolean(room.values) && !Array.from(values).some((value) => value > 0);
+  const end = isLoss ? 0 : high;
+  const words = room.values || "learned reward, on a scale of its own";
+  return {
+    before: figureOf(low),
+    sign: diverging([low, end], room),
+    words: `${end > 0 ? "+" : ""}${figureOf(end)} ${words}`,
+  };
 }
 
 /** What several learners believe, whose scales differ. @param {Room} room @returns {Item} */
@@ -183,5 +190,5 @@ function arrow({ theme, size }) {
 
 /** @param {number} value */
 function figureOf(value) {
-  return number(value, Math.abs(value) >= 10 ? 0 : Math.abs(value) >= 1 ? 1 : 2);
+  return number(value, value === 0 || Math.abs(value) >= 10 ? 0 : Math.abs(value) >= 1 ? 1 : 2);
 }

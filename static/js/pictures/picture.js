@@ -18,13 +18,14 @@ const NOTE = 12;
 
 /**
  * @param {World} world @param {Partial<View>} view
- * @param {{title: string, note?: string, theme?: "light" | "dark" | Theme}} about   `note`: a sentence below, beside the world's
+ * @param {{title: string, note?: string, values?: string, theme?: "light" | "dark" | Theme}} about
+ *   `note`: a sentence below, beside the world's; `values`: what they are, where they are not a learned reward
  */
-export function boardPicture(world, view, { title, note = "", theme = "light" }) {
+export function boardPicture(world, view, { title, note = "", values = "", theme = "light" }) {
   const palette = paletteOf(theme);
   const board = boardFigure(world, view, { theme: palette });
   const width = Math.max(NARROWEST, board.width);
-  const legend = legendFigure(world, view, { width, theme: palette, size: NOTE });
+  const legend = legendFigure(world, view, { width, theme: palette, size: NOTE, values });
   return framed([board, legend], { title, note: `${note} ${worldSentence(world)}`.trim(), theme: palette, width });
 }
 

@@ -16,27 +16,27 @@
  *   const menu = document.createElement("save-menu");
  *   menu.source = () => ({ name: "irlfr-convergence", title: "Convergence", svg: () => lineChartSvg(…) });
  *
- * Options: `name` the file's name without ending (made of the title unless given), `note` a sentence below the board, `film` (see
- * `film.js`) where the thing moves. The title may be a function: it is asked when somebody saves. Styles: components/controls.css.
+ * Options: `name` the file's name without ending (made of the title unless given), `note` a sentence below the board, `values` what
+ * the numbers of its view are ("reward lost from there on") where they are not a learned reward, `film` (see `film.js`) where the thing moves. The title may be a function: it is asked when somebody saves. Styles: components/controls.css.
+ * What draws is loaded when somebody saves, so that a page with a menu opens as fast as one without.
  */
-import { IrlBoard } from "#js/elements/irl-board.js";
 import { announce } from "#js/lib/announce.js";
 import { fileNameOf, saveFile, svgBlob, toPng } from "#js/pictures/files.js";
-import { chartPicture } from "#js/pictures/page-chart.js";
-import { boardPicture } from "#js/pictures/picture.js";
+
+/** @typedef {import("#js/elements/irl-board.js").IrlBoard} IrlBoard */
 
 /**
  * @typedef {object} Source
  * @property {string} name      of the file, without its ending
  * @property {string} title     what it is, for people
- * @property {() => string} svg
- * @property {Film} [film]
+ * @property {() => string | Promise<string>} svg
+ * @property {Film | Promise<Film>} [film]
  *
  * @typedef {object} Film       something that moves
  * @property {("gif" | "webm")[]} kinds
  * @property {(kind: "gif" | "webm", watch: {signal: AbortSignal, onProgress: (share: number) => void}) => Promise<Blob>} make
  *
- * @typedef {{title: string | (() => string), name?: string, note?: string | (() => string), film?: () => Film | undefined}} About
+ * @typedef {{title: string | (() => string), name?: string, note?: string | (() => string), values?: string | (() => string), film?: () => Film | Promise<Film>}} About
  */
 
 /** CSS pixels, as controls.css has it, with a little air. */
@@ -85,7 +85,7 @@ export class SaveMenu extends HTMLElement {
     const { name, svg, film } = this.source();
     const file = `${name}.${kind}`;
     try {
-      const blob = kind === "svg" ? svgBlob(svg()) : kind === "png" ? await toPng(svg()) : await this.#film(kind, film);
+      const blob = await this.#make(kind, { svg, film });
       if (!blob) return;
       saveFile(blob, file);
       this.#say(`Saved as ${file}.`);
@@ -93,6 +93,13 @@ export class SaveMenu extends HTMLElement {
       this.#say(`Your browser could not make this ${KINDS[kind].title}. SVG always works.`);
       reportError(error);
     }
+  }
+
+  /** @param {keyof typeof KINDS} kind @param {Pick<Source, "svg" | "film">} source @returns {Promise<Blob | null>} null: cancelled */
+  async #make(kind, { svg, film }) {
+    if (kind === "svg") return svgBlob(await svg());
+    if (kind === "png") return toPng(await svg());
+    return this.#film(kind, film);
   }
 
   #build() {
@@ -107,18 +114,19 @@ export class SaveMenu extends HTMLElement {
   }
 
   /** What can be saved may have changed since the menu was last open. */
-  #fill() {
+  async #fill() {
     if (!this.#details.open) return;
     const { title, film } = this.source();
+    const button = (/** @type {keyof typeof KINDS} */ kind) => kindButton(kind, title);
     this.#part("words").textContent = "";
-    const kinds = /** @type {(keyof typeof KINDS)[]} */ (["png", "svg", ...(film?.kinds ?? [])]);
-    this.#part("kinds").replaceChildren(...kinds.map((kind) => kindButton(kind, title)));
+    this.#part("kinds").replaceChildren(button("png"), button("svg"), ...(film ? [button("gif")] : []));
     const { left } = this.getBoundingClientRect();
     const room = document.documentElement.clientWidth - left;
     this.#details.dataset.opens = room < SHEET_WIDTH ? "left" : "right";
+    if ((await film)?.kinds.includes("webm")) this.#part("kinds").append(button("webm"));
   }
 
-  /** @param {"gif" | "webm"} kind @param {Film | undefined} film @returns {Promise<Blob | null>} null: cancelled */
+  /** @param {"gif" | "webm"} kind @param {Source["film"]} film @returns {Promise<Blob | null>} null: cancelled */
   async #film(kind, film) {
     if (!film) return null;
     const filming = new AbortController();
@@ -128,7 +136,7 @@ export class SaveMenu extends HTMLElement {
     bar.value = 0;
     this.#say("Drawing the film …");
     try {
-      return await film.make(kind, { signal: filming.signal, onProgress: (share) => (bar.value = share) });
+      return await (await film).make(kind, { signal: filming.signal, onProgress: (share) => (bar.value = share) });
     } catch (error) {
       if (filming.signal.aborted) return null;
       throw error;
@@ -195,18 +203,27 @@ function kindButton(kind, title) {
 }
 
 /** @param {IrlBoard | (() => Element | null)} thing @param {About} about @returns {Source} */
-function sourceOf(thing, { title: naming, note: noting = "", name, film }) {
-  const title = typeof naming === "function" ? naming() : naming;
-  const note = typeof noting === "function" ? noting() : noting;
-  const svg =
-    thing instanceof IrlBoard ? () => boardNow(thing, title, note) : () => chartPicture(thing(), { title, note });
+function sourceOf(thing, { title: naming, note: noting = "", values: meaning = "", name, film }) {
+  const title = said(naming);
+  const note = said(noting);
+  const svg = async () => {
+    if (thing instanceof HTMLElement) return boardNow(thing, { title, note, values: said(meaning) });
+    const { chartPicture } = await import("#js/pictures/page-chart.js");
+    return chartPicture(thing(), { title, note });
+  };
   return { name: name ?? `irlfr-${fileNameOf(title)}`, title, svg, ...(film ? { film: film() } : {}) };
 }
 
-/** @param {IrlBoard} board @param {string} title @param {string} note */
-function boardNow(board, title, note) {
+/** @param {string | (() => string)} words */
+function said(words) {
+  return typeof words === "function" ? words() : words;
+}
+
+/** @param {IrlBoard} board @param {{title: string, note: string, values: string}} about */
+async function boardNow(board, about) {
   if (!board.world) throw new Error("This board shows no world yet.");
-  return boardPicture(board.world, board.view, { title, note });
+  const { boardPicture } = await import("#js/pictures/picture.js");
+  return boardPicture(board.world, board.view, about);
 }
 
 customElements.define("save-menu", SaveMenu);

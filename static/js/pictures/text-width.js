@@ -62,5 +62,6 @@ export function fittedInto(words, width, size, weight = 400) {
 
 /** The largest size of type, of what is asked for and some smaller ones, at which words fit. @param {string} words @param {number} width @param {number} size @param {number} [weight] */
 export function sizeFor(words, width, size, weight = 400) {
-  return Math.max(SMALLEST_SHARE * size, Math.min(size, (size * width) / textWidth(words, size, weight)));
+  const exact = (0.999 * size * width) / textWidth(words, size, weight);
+  return Math.max(SMALLEST_SHARE * size, Math.min(size, exact));
 }

@@ -13,17 +13,15 @@ const KEY_EVERY = 40;
 /** Frames that may wait for the encoder. */
 const MOST_WAITING = 4;
 
-let isAble = false;
-// Asked once, when the page loads: the menu has to know before it opens.
-if (typeof VideoEncoder === "function") {
-  VideoEncoder.isConfigSupported({ codec: CODEC, width: 640, height: 360, bitrate: BITS_PER_SECOND }).then(
-    ({ supported }) => (isAble = supported === true),
-    () => (isAble = false),
-  );
-}
-
-export function canWebm() {
-  return isAble;
+/** Whether this browser can. */
+export async function canWebm() {
+  if (typeof VideoEncoder !== "function") return false;
+  try {
+    const asked = { codec: CODEC, width: 640, height: 360, bitrate: BITS_PER_SECOND };
+    return (await VideoEncoder.isConfigSupported(asked)).supported === true;
+  } catch {
+    return false;
+  }
 }
 
 /** @param {Reel} reel @param {Watch} watch @returns {Promise<Blob>} */
