@@ -4,6 +4,7 @@ import platform
 import secrets
 import uuid
 from collections.abc import Sequence
+from functools import cache
 from importlib.metadata import version
 
 from sqlalchemy import delete as remove
@@ -47,7 +48,7 @@ def learn_later(session: Session, jobs: Jobs, *, world: StoredWorld, visitor_id:
         seed=seed,
         demonstrations=[row.id for row in kept],
         rankings=groups,
-        versions=software_versions(),
+        versions=dict(software_versions()),
         status="queued",
         created_at=clock.now(),
     )
@@ -90,8 +91,9 @@ def current_rankings(
     }
 
 
+@cache
 def software_versions() -> dict[str, str]:
-    """Name what a result depends on beside its inputs."""
+    """Name what a result depends on beside its inputs. Reading it takes milliseconds, and it never changes here."""
     packages = ("irlfr", "numba", "numpy", "scipy")
     return {name: version(name) for name in packages} | {"python": platform.python_version()}
 

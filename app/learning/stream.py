@@ -151,6 +151,7 @@ class _OfRun:
     def _snapshot(self, standing: Standing) -> tuple[str, dict[str, Any]]:
         # The event that ends a run follows its snapshot, with a number of its own.
         self._seen = self.feed.newest - (1 if standing.has_ended and self.feed.newest else 0)
+        self.has_ended = standing.has_ended and not self.feed.newest  # ended by hand: nothing will follow
         self._begun.update(self.feed.latest)
         self._waiting = (standing.ahead, standing.worker)
         latest = {name: frame.told | {"number": frame.number} for name, frame in self.feed.latest.items()}

@@ -26,7 +26,7 @@ from app.models import RunEvent
 
 LOOK_EVERY_S = 0.05
 """How soon news is found that nobody rang for."""
-REST_S = 0.005
+REST_S = 0.015
 """Between two looks, however often it rings: what comes meanwhile is found together."""
 BATCH = 50
 """How many events are read at once: bounds what a stream that is far behind holds in memory."""
