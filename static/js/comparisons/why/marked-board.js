@@ -58,12 +58,15 @@ export class MarkedBoard {
   /** @param {string} title */
   #saveMenu(title) {
     const menu = saveMenu(this.board, { title });
-    menu.source = () => {
-      const { view, framed = [], dimmed = [], ends, caption, note = "" } = /** @type {Shown} */ (this.#shown);
-      const svg = () => whyPicture(this.#world, { view, framed, dimmed, ends }, { title: caption, note });
-      return { name: `irlfr-${fileNameOf(title)}`, title, svg };
-    };
+    menu.source = () => ({ name: `irlfr-${fileNameOf(title)}`, title, svg: () => this.#picture() });
     return menu;
+  }
+
+  /** What is shown at the moment of saving. */
+  #picture() {
+    if (!this.#shown) throw new Error("This board shows nothing yet.");
+    const { view, framed = [], dimmed = [], ends, caption, note = "" } = this.#shown;
+    return whyPicture(this.#world, { view, framed, dimmed, ends }, { title: caption, note });
   }
 
   /** @param {string} name */
