@@ -9,7 +9,7 @@ from pathlib import Path
 for _library in ("OMP", "OPENBLAS", "MKL"):
     os.environ[f"{_library}_NUM_THREADS"] = "1"  # before NumPy is imported: one thread on both sides
 
-from bench import core, learn, play, rank, web  # noqa: E402
+from bench import core, experiment, learn, play, rank, web  # noqa: E402
 from bench.measure import Figure  # noqa: E402
 
 PARTS: dict[str, Callable[[], Iterator[Figure]]] = {
@@ -18,6 +18,7 @@ PARTS: dict[str, Callable[[], Iterator[Figure]]] = {
     "rank": rank.measure,
     "learn": learn.measure,
     "web": web.measure,
+    "experiment": experiment.measure,
 }
 
 
