@@ -12,7 +12,7 @@ from collections.abc import AsyncIterator, Iterable, Iterator, Sequence
 from contextlib import suppress
 from typing import Any
 
-from fastapi.sse import KEEPALIVE_COMMENT, format_sse_event
+from fastapi.sse import KEEPALIVE_COMMENT
 
 from app.learning.queries import Standing
 from app.learning.watcher import Feed, Happening, Watcher
@@ -35,12 +35,12 @@ async def every_event(watcher: Watcher, run_id: str, after: int) -> AsyncIterato
         while True:
             news = watcher.news
             for one in await _following(watcher, feed, after):
-                yield format_sse_event(data_str=one.data, event=one.kind, id=str(one.number))
+                yield _message(one.kind, one.data, str(one.number))
                 after = one.number
                 if one.is_last:
                     return
             if feed.standing is None:
-                yield _message("failed", {"status": "deleted", "message": DELETED}, str(after))
+                yield _message("failed", json.dumps({"status": "deleted", "message": DELETED}), str(after))
                 return
             if after == feed.newest and not await _comes(news):
                 yield KEEPALIVE_COMMENT
@@ -129,8 +129,8 @@ class _OfRun:
         """Whether more is known than was told."""
         return not self.has_ended and self.number < self.feed.newest
 
-    def messages(self, pending: Sequence[Happening]) -> Iterator[tuple[str, dict[str, Any]]]:
-        """Tell what is to be told now; each message is of the moment at which `number` is that of its event."""
+    def messages(self, pending: Sequence[Happening]) -> Iterator[tuple[str, str]]:
+        """Tell what is to be told now, as (kind, JSON); at each message `number` is that of its event."""
         standing = self.feed.standing
         if standing is None:
             self.has_ended = True
@@ -148,7 +148,7 @@ class _OfRun:
             self._waiting = waiting
             yield "queue", self._told({"ahead": standing.ahead, "worker": standing.worker})
 
-    def _snapshot(self, standing: Standing) -> tuple[str, dict[str, Any]]:
+    def _snapshot(self, standing: Standing) -> tuple[str, str]:
         # The event that ends a run follows its snapshot, with a number of its own.
         self._seen = self.feed.newest - (1 if standing.has_ended and self.feed.newest else 0)
         self.has_ended = standing.has_ended and not self.feed.newest  # ended by hand: nothing will follow
@@ -167,15 +167,14 @@ class _OfRun:
                 self._begun.add(str(one.learner))
                 yield one
 
-    def _message(self, one: Happening) -> tuple[str, dict[str, Any]]:
+    def _message(self, one: Happening) -> tuple[str, str]:
         self.has_ended = one.is_last
         if one.kind == "frame" and not self.with_frames:
-            kept = {name: one.told[name] for name in ("learner", "iteration", "iterations")}
-            return "progress", self._told({"number": one.number} | kept)
-        return one.kind, self._told({"number": one.number} | one.told)
+            return "progress", one.progress
+        return one.kind, one.text
 
-    def _told(self, data: dict[str, Any]) -> dict[str, Any]:
-        return {"run_id": self.feed.run_id} | data
+    def _told(self, data: dict[str, Any]) -> str:
+        return json.dumps({"run_id": self.feed.run_id} | data, separators=(",", ":"))
 
 
 async def _following(watcher: Watcher, feed: Feed, number: int) -> Sequence[Happening]:
@@ -191,5 +190,6 @@ async def _comes(news: asyncio.Event) -> bool:
     return False
 
 
-def _message(kind: str, data: dict[str, Any], number: str) -> bytes:
-    return format_sse_event(data_str=json.dumps(data, separators=(",", ":")), event=kind, id=number)
+def _message(kind: str, data: str, number: str) -> bytes:
+    """A server-sent event; JSON as we write it has no line breaks."""
+    return f"event: {kind}\nid: {number}\ndata: {data}\n\n".encode()

@@ -60,6 +60,17 @@ class Happening:
         """Whose frame or result it is."""
         return self.told.get("learner")
 
+    @cached_property
+    def text(self) -> str:
+        """What it tells beside events of other runs, in JSON: written once for all streams."""
+        return f'{{"run_id":"{self.run_id}","number":{self.number},{self.data[1:]}'
+
+    @cached_property
+    def progress(self) -> str:
+        """A frame without its pictures."""
+        kept = {name: self.told[name] for name in ("learner", "iteration", "iterations")}
+        return json.dumps({"run_id": self.run_id, "number": self.number} | kept)
+
 
 @dataclass
 class Feed:
@@ -204,7 +215,7 @@ class Watcher:
                 for happening in _by_run(queries.events_after(session, run_id, number, limit=BATCH))
             ]
         for one in happenings:
-            _ = one.told  # read here, in a thread, and not where all streams wait
+            _ = one.told, one.text  # here, in a thread, and not where all streams wait
         return happenings, standings
 
     def _read_after(self, run_id: str, number: int) -> list[Happening]:

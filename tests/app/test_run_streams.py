@@ -128,11 +128,11 @@ def test_a_stream_that_comes_back_is_sent_what_follows_and_no_snapshot(client, p
     assert found[0][2]["number"] == 3
 
 
-@pytest.mark.parametrize("seen", ["", "x", "1.2", "-1", "1e3"])
-def test_an_id_that_is_none_of_ours_begins_with_a_snapshot(client, played, database, seen):  # noqa: F811
-    run_id = ask(client, played, learners=["meirl"]).json()["id"]
+def test_an_id_that_is_none_of_ours_begins_with_a_snapshot(client, played, database):  # noqa: F811
+    run_id = ask(client, played, learners=["bc"]).json()["id"]
     worker.learn_now(database, run_id)
-    assert [kind for _, kind, _ in follow(client, run_id, seen=seen)] == ["snapshot", "done"]
+    for seen in ("", "x", "1.2", "-1", "1e3"):
+        assert [kind for _, kind, _ in follow(client, run_id, seen=seen)] == ["snapshot", "done"], seen
 
 
 def test_a_thousand_frames_behind_is_one_snapshot_away(client, played, database):  # noqa: F811
@@ -226,7 +226,7 @@ def test_a_run_deleted_while_it_is_watched_ends_its_streams(client, played, data
 def test_a_hundred_streams_over_four_runs_miss_nothing_that_matters(client, played, database, settings):  # noqa: F811
     """The small version of bench/streams.py, without a server in between."""
     quick = {"iterations": 10}
-    run_ids = [ask(client, played, learners=FOUR[:2], settings=quick).json()["id"] for _ in range(4)]
+    run_ids = [ask(client, played, learners=["meirl"], settings=quick).json()["id"] for _ in range(4)]
 
     async def watch():
         async with watching(database, settings) as (watcher, ring):
@@ -245,13 +245,8 @@ def test_a_hundred_streams_over_four_runs_miss_nothing_that_matters(client, play
         for run_id in run_ids:
             check_ids(found, run_id)
             assert [kind for _, kind, data in found if data["run_id"] == run_id][-1] == "done"
-            for name in FOUR[:2]:
-                frames = [
-                    data
-                    for _, kind, data in found
-                    if kind == "frame" and data["run_id"] == run_id and data["learner"] == name
-                ]
-                assert frames[-1]["iteration"] == 10
+            frames = [data for _, kind, data in found if kind == "frame" and data["run_id"] == run_id]
+            assert frames[-1]["iteration"] == 10
 
 
 def test_a_feed_keeps_only_so_many_events(client, played, database, settings):  # noqa: F811
