@@ -54,8 +54,12 @@ const GAP = 14;
 const [TITLE, NAME, SMALL] = [12.7, 10, 9.33];
 const MOST_IN_A_ROW = 5;
 const WIDEST_BOARD = 200;
-/** The cell at which boards are drawn before they are scaled, so that their lines are as fine as print allows. */
-const CELL = 28;
+/**
+ * Boards are drawn larger than they stand and then scaled, so that their lines are as fine as print allows; where squares are
+ * too many for hatch and arrows to be seen, smaller, and without them.
+ */
+const LARGEST_CELL = 28;
+const ENLARGED = 2.3;
 
 /** @param {ComparisonData} data @param {{theme?: "light" | "dark" | Theme}} [options] */
 export function comparisonSvg(data, { theme = "light" } = {}) {
@@ -203,7 +207,8 @@ function legendOf({ world, beliefs }, theme) {
 
 /** @param {World} world @param {object} view @param {number} side @param {Theme} theme @returns {Figure} */
 function boardOf(world, view, side, theme) {
-  const board = boardFigure(world, view, { cell: CELL, ratio: 0.8, theme });
+  const cell = Math.min(LARGEST_CELL, (ENLARGED * side) / world.cols);
+  const board = boardFigure(world, view, { cell: cell < 4 ? cell : Math.floor(cell), ratio: 0.8, theme });
   const scale = side / board.width;
   return { markup: place(board, 0, 0, scale), width: side, height: board.height * scale };
 }
