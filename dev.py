@@ -60,6 +60,7 @@ def run(arguments: list[str]) -> int:
 
 def test(arguments: list[str]) -> int:
     set_up(dev=True)
+    step("compile", [PYTHON, "-c", "import irl_core; irl_core.warm_up()"])  # once, rather than in every server at once
     return step("pytest", [PYTHON, "-m", "pytest", *(arguments or SIDE_BY_SIDE)], with_browser())
 
 

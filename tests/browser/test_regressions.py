@@ -87,8 +87,7 @@ def test_focus_stays_on_the_page_when_its_button_goes(page: Page, base_url: str)
 def test_a_double_press_of_learn_cancels_nothing(page: Page, base_url: str) -> None:
     world_id, _ = walk.prepared(page, base_url, seed=34)
     page.goto(f"/worlds/{world_id}/learn")
-    page.locator('[data-action="learn"]').click()
-    page.locator('[data-action="cancel"]').click()
+    page.locator('[data-action="learn"]').dblclick()
     expect(page.locator("learn-page")).to_have_attribute("data-status", "done", timeout=walk.LEARNING_MS)
 
 
