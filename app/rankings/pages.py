@@ -37,7 +37,8 @@ class RankPage:
 @router.get("/worlds/{world_id}/rank", response_model=None)
 def show_rank(request: Request, world: WorldFromPath, database: DatabaseFromApp, visitor_id: VisitorOrNone) -> Response:
     """Show both lists: in the order confirmed last, or in their start order."""
-    request.app.state.companion.wake()
+    if request.app.state.settings.show_policy:
+        request.app.state.companion.wake()
     with database.read() as session:
         rows = all_in_world(session, visitor_id, world.id)
         newest = queries.newest(session, visitor_id, world.id)
