@@ -40,7 +40,7 @@ class Wait:
     done: float
     comparison: float
     server: float
-    compute: float | None
+    compute: float
 
 
 def measure() -> Iterator[Figure]:
@@ -65,10 +65,10 @@ def _measure_learning(browser: Browser, server: LiveServer) -> Iterator[Figure]:
     yield at_most(
         name, comparison, target=COMPARISON_MS, unit="ms", reference=f"followed at once; {spread(comparison)}"
     )
-    computed = [wait.compute for wait in waits if wait.compute]
-    ratios = [wait.server / wait.compute for wait in waits if wait.compute]
+    computed = [wait.compute for wait in waits]
+    ratios = [wait.server / wait.compute for wait in waits]
     reference = f"asked to done {statistics.median(server_ms):.0f} ms"
-    reference += f", learners {statistics.median(computed):.0f} ms" if computed else "; the results tell no compute_ms"
+    reference += f", learners {statistics.median(computed):.0f} ms"
     name = f"{title}: time on the server / the learners' own"
     yield at_most(name, ratios, target=MOST_OVERHEAD, unit="×", reference=reference)
 
@@ -96,14 +96,13 @@ def _press_learn(browser: Browser, server: LiveServer) -> Wait:
     return Wait(seen["frame"], seen["done"], comparison, server_ms, compute_ms)
 
 
-def _time_on_server(page: Page, server: LiveServer, world_id: str) -> tuple[float, float | None]:
-    """From asked to done, and what all learners of the run computed together, if it is told."""
+def _time_on_server(page: Page, server: LiveServer, world_id: str) -> tuple[float, float]:
+    """From asked to done, and what all learners of the run computed together."""
     client = walk.ContextClient(page, server.address)
     listed = client.get(f"/worlds/{world_id}/runs")
     run = client.get(f"/runs/{listed[0]['id']}")
     asked, done = (datetime.fromisoformat(run[name]) for name in ("created_at", "finished_at"))
-    times = [learner.get("compute_ms") for learner in run["learners"].values()]
-    return 1000 * (done - asked).total_seconds(), None if None in times else sum(times)
+    return 1000 * (done - asked).total_seconds(), sum(run["compute_ms"].values())
 
 
 def _measure_drops(browser: Browser, server: LiveServer) -> Iterator[Figure]:

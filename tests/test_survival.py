@@ -43,7 +43,7 @@ def check_survival(server: LiveServer, strike: Callable[[], object]) -> None:
     assert client.get(f"/runs/{struck}")["status"] == "running", "the run ended before it could be struck"
     strike()
     survived = finished(client, struck)
-    assert without_times(survived["learners"]) == without_times(undisturbed["learners"])
+    assert survived["learners"] == undisturbed["learners"]
     check_stored_once(server, struck, n_frames)
     assert not server.lost_files()
 
@@ -76,14 +76,6 @@ def finished(client: journey.Client, run_id: str) -> dict[str, Any]:
     assert run["status"] == "done"
     assert {name: result["iterations"] for name, result in run["learners"].items()} == dict.fromkeys(LEARNERS, 700)
     return run
-
-
-def without_times(learners: dict[str, Any]) -> dict[str, Any]:
-    """What the learners came to, without how long they computed."""
-    return {
-        name: {field: value for field, value in result.items() if field != "compute_ms"}
-        for name, result in learners.items()
-    }
 
 
 def check_stored_once(server: LiveServer, run_id: str, n_frames: int) -> None:

@@ -127,7 +127,8 @@ def _out(
         worker=standing.worker if standing else "ready",
         seed=run.seed,
         settings=run.settings,
-        learners={name: _learner_out(results.get(name), computed_ms.get(name)) for name in run.learners},
+        learners={name: results[name].result if name in results else {"outcome": None} for name in run.learners},
+        compute_ms={name: round(computed_ms[name], 3) for name in run.learners if name in computed_ms},
         n_demonstrations=len(run.demonstrations),
         n_left_out=max((row.result["n_left_out"] for row in results.values()), default=0),
         versions=run.versions,
@@ -135,9 +136,3 @@ def _out(
         started_at=run.started_at,
         finished_at=run.finished_at,
     )
-
-
-def _learner_out(result: RunResult | None, computed_ms: float | None) -> dict[str, Any]:
-    """What a learner has come to; from its first step on with the time that it has computed."""
-    found = {"outcome": None} if result is None else result.result
-    return found if computed_ms is None else found | {"compute_ms": computed_ms}

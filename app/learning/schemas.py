@@ -54,10 +54,12 @@ class RunOut(BaseModel):
     seed: int
     settings: dict[str, Any]
     learners: dict[str, dict[str, Any]] = Field(
-        description="By name: compute_ms (its own time so far), outcome, sentence, iterations, gap, log_likelihood, "
-        "reward[rows][cols], "
+        description="By name: outcome, sentence, iterations, gap, log_likelihood, reward[rows][cols], "
         "policy[rows·cols][4] (the one that is executed), visitation[rows][cols], weights of the features (null where "
         "they are the reward), posterior (null but for Bayesian learners); outcome is null until then."
+    )
+    compute_ms: dict[str, float] = Field(
+        description="How long each learner has computed, in milliseconds; beside the results, which are the same again."
     )
     n_demonstrations: int
     n_left_out: int = Field(description="Failures that never reached the goal and were not learned from.")

@@ -12,7 +12,7 @@ from app.cli import cli
 from app.db import Database
 from app.learning import worker
 from irl_core import LEARNERS
-from tests.app.test_learning import ask, played, without_times  # noqa: F401 - `played` is a fixture
+from tests.app.test_learning import ask, played  # noqa: F401 - `played` is a fixture
 from tests.live_server import free_port
 
 runner = CliRunner()
@@ -34,7 +34,7 @@ def test_learn_gives_the_numbers_of_the_web_run(client, played, settings, tmp_pa
     result = json.loads(out.read_text())
     run = client.get(f"/api/v1/runs/{run_id}").json()
     comparison = client.get(f"/api/v1/runs/{run_id}/comparison").json()
-    assert result["learners"] == without_times(run["learners"])
+    assert result["learners"] == run["learners"]
     assert result["comparison"]["entries"] == comparison["entries"]
     assert result["rollouts"] == client.get(f"/api/v1/runs/{run_id}/rollouts").json()
     assert result["settings"] == run["settings"]

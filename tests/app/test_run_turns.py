@@ -14,7 +14,7 @@ from app.learning.queries import worker_state
 from app.learning.turns import Turns
 from app.learning.upkeep import Upkeep
 from irl_core import LEARNERS, Settings
-from tests.app.test_learning import ask, played, without_times  # noqa: F401 - `played` is a fixture
+from tests.app.test_learning import ask, played  # noqa: F401 - `played` is a fixture
 from tests.factories import make_demonstration
 
 
@@ -109,7 +109,7 @@ def test_runs_that_take_turns_come_to_what_they_come_to_alone(client, other_clie
         thread.start()
     for thread in threads:
         thread.join()
-    results = [without_times(client.get(f"/api/v1/runs/{run_id}").json()["learners"]) for run_id in (alone, *run_ids)]
+    results = [client.get(f"/api/v1/runs/{run_id}").json()["learners"] for run_id in (alone, *run_ids)]
     assert results[0] == results[1] == results[2], "to the last bit"
 
 

@@ -27,7 +27,6 @@
  * @property {number} [n_left_out]
  * @property {number[] | null} [weights] (K,), null where they are the reward
  * @property {Posterior | null} [posterior]
- * @property {number} [compute_ms]
  *
  * @typedef {object} Posterior what a Bayesian learner does not know
  * @property {number} level the probability of its intervals
@@ -47,6 +46,7 @@
  * @property {number} seed
  * @property {Record<string, number | string>} settings
  * @property {Record<string, Result>} learners
+ * @property {Record<string, number>} [compute_ms] of each learner that has begun
  * @property {string} created_at
  * @property {number} [n_demonstrations]
  * @property {number} [n_left_out]

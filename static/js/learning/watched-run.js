@@ -32,7 +32,7 @@ export class WatchedRun {
   constructor(run, learners, isOwn = true) {
     this.run = run;
     this.progress = new RunProgress(run, learners, isOwn);
-    for (const [learner, result] of Object.entries(run.learners)) this.#seeResult(learner, result);
+    for (const [learner, result] of Object.entries(run.learners)) this.#seeResult(learner, result, run.compute_ms?.[learner]);
   }
 
   get id() {
@@ -128,8 +128,13 @@ export class WatchedRun {
     }
   }
 
-  /** A finished learner is on its board before the record has come. @param {string} learner @param {Result} result */
-  #seeResult(learner, result) {
+  /**
+   * A finished learner is on its board before the record has come.
+   * @param {string} learner
+   * @param {Result} result
+   * @param {number | undefined} compute_ms
+   */
+  #seeResult(learner, result, compute_ms) {
     if (!result.policy || !result.reward || !result.visitation) return;
     const iterations = result.iterations ?? 0;
     this.store.add({
@@ -141,7 +146,7 @@ export class WatchedRun {
       reward: result.reward.flat(),
       policy: result.policy,
       visitation: result.visitation.flat(),
-      compute_ms: result.compute_ms,
+      compute_ms,
     });
     this.timeline.extendTo(iterations);
   }
