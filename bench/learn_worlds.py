@@ -6,7 +6,7 @@ from typing import Final
 from tests import journey
 
 SEED: Final = 5
-LONG: Final = {"iterations": 40_000, "tolerance": 1e-12}
+LONG: Final = {"iterations": 20_000, "tolerance": 1e-12}
 """Settings with which a learner is busy for seconds, where it takes a tenth of one by default."""
 
 
