@@ -84,13 +84,22 @@ def test_pictures(browser: Browser, base_url: str, screenshots: Path | None, dev
             page.goto(path)
             if name == "compare":
                 halfway(page)
+            if name == "rank":
+                expect(page.locator(".policy")).to_have_attribute("data-state", "shown", timeout=walk.LEARNING_MS)
             take(page, screenshots / f"{name}-{device}-{scheme}.png")
+            if name == "compare":
+                ask_why(page)
+                take(page, screenshots / f"why-{device}-{scheme}.png")
             if name == "rank":
                 for way in ("pairwise", "segments"):
                     page.locator(f'[name="way"][value="{way}"]').check(force=True)
                     take(page, screenshots / f"rank-{way}-{device}-{scheme}.png")
         page.goto("/worlds/new?rows=7&cols=9&seed=5&walls=12,21,30-32&goals=62,17&painted=24-25:-6")
         take(page, screenshots / f"editor-{device}-{scheme}.png")
+        for seed in (6, 7, 8):
+            walk.prepared(page, base_url, seed=seed)
+        page.goto("/results")
+        take(page, screenshots / f"results-{device}-{scheme}.png")
         page.goto("/docs")
         take(page, screenshots / f"docs-{device}-{scheme}.png")
     page.goto("/nowhere")  # no longer watched: the browser itself reports the 404 on its console
@@ -102,6 +111,14 @@ def halfway(page: Page) -> None:
     """Everybody well on the way."""
     page.locator('[data-action="start"]').click()
     page.locator('[data-action="forward"]').click(click_count=9)
+
+
+def ask_why(page: Page) -> None:
+    """The attempts by how much they mattered, in the middle of the window."""
+    mattered = page.locator('.why-part[data-why="mattered"]')
+    mattered.locator("summary").click()
+    expect(mattered).to_have_attribute("data-state", "answered", timeout=walk.LEARNING_MS)
+    mattered.evaluate("(one) => one.scrollIntoView({ block: 'start' })")
 
 
 def paths(world_id: str, run_id: str) -> dict[str, str]:
