@@ -2,9 +2,9 @@
 
 It is a fresh interpreter (never a fork), started when it is first needed or by `wake`, and warmed up before its first
 call; this process never loads what it loads. One call at a time: each of those who ask has at most one call of a kind
-waiting, a newer one takes its place, and they take turns. A call that computes for too long costs the process its
-life; then, and when it dies of itself, the one who asked is told and it is started anew. It ends when this process
-does.
+waiting, a newer one takes its place, and they take turns. A call that computes for too long (by the processor's time:
+a busy machine is no reason), or that hangs, costs the process its life; then, and when it dies of itself, the one who
+asked is told and it is started anew. It ends when this process does.
 """
 
 import asyncio
@@ -23,10 +23,12 @@ T = TypeVar("T")
 Arguments = TypeVarTuple("Arguments")
 
 LIMIT_S = 10.0
-"""The longest that a call may compute."""
+"""The longest that a call may compute, in time of the processor."""
+HANGS_AFTER_S = 120.0
+"""The longest that a call may take by the clock."""
 WARM_UP_LIMIT_S = 600.0
-"""The longest that warming up may take: on a fresh installation everything has to be compiled."""
-PATIENCE_S = 15.0
+"""The longest that warming up may take, by either: on a fresh installation everything has to be compiled."""
+PATIENCE_S = 30.0
 """The longest that somebody waits for an answer, the wait for their turn included."""
 CLOSE_WITHIN_S = 2.0
 
@@ -60,11 +62,13 @@ class Companion:
         expected: tuple[type[Exception], ...],
         environment: Mapping[str, str],
         limit_s: float = LIMIT_S,
+        hangs_after_s: float = HANGS_AFTER_S,
     ) -> None:
         self._warm_up = warm_up
         self._expected = expected
         self._environment = environment
         self._limit_s = limit_s
+        self._hangs_after_s = hangs_after_s
         self._changed = threading.Condition()  # guards what follows
         self._waiting: dict[str, dict[str, _Call]] = {}  # by who asks and kind; in the order of their turns
         self._lines: WeakValueDictionary[tuple[str, str], Line] = WeakValueDictionary()
@@ -150,7 +154,7 @@ class Companion:
             self._process = process
             if self._is_closed:
                 process.kill()
-        self._ask(process, self._warm_up, (), limit_s=WARM_UP_LIMIT_S)
+        self._ask(process, _Call(self._warm_up, ()), limit_s=WARM_UP_LIMIT_S, hangs_after_s=WARM_UP_LIMIT_S)
         return process
 
     def _next(self) -> _Call | None:
@@ -171,19 +175,19 @@ class Companion:
         if not call.answer.set_running_or_notify_cancel():
             return
         try:
-            answer = self._ask(process, call.function, call.arguments, limit_s=self._limit_s)
+            answer = self._ask(process, call, limit_s=self._limit_s, hangs_after_s=self._hangs_after_s)
         except Exception as error:  # noqa: BLE001 - it belongs to the one who asked
             self._is_wanted = True
             call.answer.set_exception(error)
         else:
             call.answer.set_result(answer)
 
-    def _ask(
-        self, process: "Process", function: Callable[..., Any], arguments: tuple[Any, ...], *, limit_s: float
-    ) -> Any:  # noqa: ANN401 - whatever the function returns
+    def _ask(self, process: "Process", call: _Call, *, limit_s: float, hangs_after_s: float) -> Any:  # noqa: ANN401 - whatever the function returns
         """Return what the function returns there, or raise what it raises; a process that failed is let go."""
         try:
-            is_value, told = process.ask((function, arguments, self._expected), limit_s=limit_s)
+            is_value, told = process.ask(
+                (call.function, call.arguments, self._expected), limit_s=limit_s, hangs_after_s=hangs_after_s
+            )
         except CompanionError as error:
             if not self._is_closed:
                 logger.warning("The companion is gone: %s, %s", type(error).__name__, error)

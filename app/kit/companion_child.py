@@ -1,7 +1,8 @@
 """What the companion process (`companion.py`) does: take calls from standard input, answer on standard output.
 
-A call is the pickled bytes of `(function, arguments, expected)`, an answer the bytes of `(True, value)` or `(False,
-error)`. Both come from the same program on the same machine, through a pipe that nobody else holds.
+A call comes as `(limit_s, bytes)`: how long it may compute, and the pickled `(function, arguments, expected)`. An
+answer is the bytes of `(True, value)` or `(False, error)`. Both come from the same program on the same machine, through
+a pipe that nobody else holds.
 """
 
 import os
@@ -23,10 +24,12 @@ def serve() -> None:
     if hasattr(os, "nice"):
         os.nice(NICENESS)
     answers = _take_standard_output()
-    calls: queue.SimpleQueue[bytes] = queue.SimpleQueue()
+    calls: queue.SimpleQueue[tuple[float, bytes]] = queue.SimpleQueue()
     threading.Thread(target=_listen, args=(calls,), daemon=True).start()
     while True:
-        answers.write(pickle.dumps(_answer(calls.get())))
+        limit_s, call = calls.get()
+        _end_after(limit_s)
+        answers.write(pickle.dumps(_answer(call)))
         answers.flush()
 
 
@@ -37,7 +40,13 @@ def _take_standard_output() -> BinaryIO:
     return answers
 
 
-def _listen(calls: queue.SimpleQueue[bytes]) -> None:
+def _end_after(limit_s: float) -> None:
+    """Let the system end this process (SIGPROF) once it has computed for so long, whatever it computes in."""
+    if hasattr(signal, "setitimer"):
+        signal.setitimer(signal.ITIMER_PROF, limit_s)
+
+
+def _listen(calls: queue.SimpleQueue[tuple[float, bytes]]) -> None:
     """Read ahead, so that the end of the parent is noticed in the middle of a call, too."""
     try:
         while True:

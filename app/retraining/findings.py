@@ -17,7 +17,9 @@ from irl_core.uncertainty import Draw
 Finding: TypeAlias = Callable[[Line, LearningProblem, LearningResult], Awaitable[Answer]]
 
 LIMIT_MS: Final = 20_000.0
-"""The longest that one answer may be computed."""
+"""The longest that one answer may be computed, in time of the processor."""
+TELLS_MS: Final = 2000.0
+"""After this long the pace says whether it will come to more: before, a slow beginning would."""
 BUDGET_MS: Final = 1000.0
 """As many draws are taken as fit into this …"""
 N_DRAWS: Final = (200, 100, 50, 30)
@@ -49,7 +51,7 @@ async def take_draws(line: Line, problem: LearningProblem, whole: LearningResult
     draws, spent_ms = await line.ask(computing.learn_draws, problem, whole, range(1))
     n_draws = affordable(spent_ms)
     while len(draws) < n_draws:
-        at_once = max(1, math.floor(AT_ONCE_MS * len(draws) / spent_ms))
+        at_once = max(1, math.floor(AT_ONCE_MS * len(draws) / max(spent_ms, 1.0)))
         numbers = range(len(draws), min(n_draws, len(draws) + at_once))
         more, took_ms = await line.ask(computing.learn_draws, problem, whole, numbers)
         draws += more
@@ -65,5 +67,5 @@ def affordable(draw_ms: float) -> int:
 
 def check_pace(spent_ms: float, *, n_done: int, n_all: int) -> None:
     """Raise TooSlow when all of it would take longer than anybody waits."""
-    if spent_ms / n_done * n_all > LIMIT_MS:
+    if spent_ms > TELLS_MS and spent_ms / n_done * n_all > LIMIT_MS:
         raise TooSlow

@@ -8,6 +8,7 @@ import contextlib
 import operator
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import time
@@ -30,8 +31,8 @@ sys.stdin.read()
 def make_companion():
     with contextlib.ExitStack() as closing:
 
-        def make(*, warm_up=os.getpid, expected=(), environment=None, limit_s=60.0):
-            made = Companion(warm_up=warm_up, expected=expected, environment=environment or {}, limit_s=limit_s)
+        def make(*, warm_up=os.getpid, expected=(), environment=None, **limits):
+            made = Companion(warm_up=warm_up, expected=expected, environment=environment or {}, **limits)
             closing.callback(made.close)
             return made
 
@@ -94,11 +95,19 @@ def test_one_that_died_while_nobody_asked_is_replaced_before_anybody_notices(com
     assert ask(companion, os.getpid) != pid
 
 
-def test_a_call_that_computes_too_long_is_ended_and_the_next_one_answered(make_companion):
-    hasty = make_companion(limit_s=0.2)
+def test_a_call_that_hangs_is_ended_and_the_next_one_answered(make_companion):
+    hasty = make_companion(hangs_after_s=0.2)
     with pytest.raises(Overdue):
         ask(hasty, time.sleep, 600)
     assert ask(hasty, operator.add, 1, 2) == 3
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="without it the clock alone ends a call")
+def test_a_call_that_computes_too_long_is_ended_but_not_one_that_has_to_wait(make_companion):
+    hasty = make_companion(limit_s=0.2)
+    with pytest.raises(Overdue):
+        ask(hasty, pow, 3, 10**9)  # within one call of C, where no look at the clock reaches
+    assert ask(hasty, time.sleep, 0.4) is None, "time in which others compute does not count"
 
 
 def test_one_that_cannot_start_tells_everybody_who_waits_and_is_tried_again_when_next_asked(make_companion, tmp_path):

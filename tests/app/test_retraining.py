@@ -313,9 +313,10 @@ class TestFindings:
 
     def test_how_many_draws_are_taken_depends_on_what_one_takes(self):
         assert [affordable(ms) for ms in (0.1, 5.0, 5.1, 10.0, 20.0, 33.0, 500.0)] == [200, 200, 100, 100, 50, 30, 30]
-        check_pace(1000.0, n_done=1, n_all=20)
+        check_pace(2000.0, n_done=1, n_all=20)  # a slow beginning says nothing yet
+        check_pace(3000.0, n_done=3, n_all=20)
         with pytest.raises(TooSlow):
-            check_pace(1001.0, n_done=1, n_all=20)
+            check_pace(3001.0, n_done=3, n_all=20)
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="a call that waits for as long as the test likes needs a FIFO")
