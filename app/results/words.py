@@ -42,9 +42,14 @@ def headline(overview: Overview, titles: Mapping[str, str], voice: Voice) -> str
     most = max(one.places[0].count for one in overview.standings)
     first = [one for one in overview.standings if one.places[0].count == most]
     names = listed([titles[one.who] for one in first])
+    if overview.n == 1:
+        together = " together" if len(first) > 1 else ""
+        return f"{heading(names)} came first{together} in your only {voice.comparison} so far."
     if len(first) > 1:
         return f"{heading(names)} came first most often: each in {most} of {voice.counted(overview.n)}."
     n = first[0].n
+    if n == 1:
+        return f"{heading(names)} came first most often: in the only {voice.comparison} it took part in."
     of = voice.counted(n) if n == overview.n else f"the {voice.counted(n)} it took part in"
     return f"{heading(names)} came first most often: in {most} of {of}."
 
@@ -122,6 +127,9 @@ def votes_needed(n_pairs: int) -> int:
 def table_one_sentences(table: TableOne, titles: Mapping[str, str], voice: Voice) -> dict[str, str]:
     """Write out each row of the paper's Table I, as the paper does."""
     below = table.below_all
+    if below.of == 1:
+        human = f"{'All four learners' if below.count else 'Not all four learners'} earned more than {voice.human}."
+        return {"human": human} | {row.who: _sentence_of_one(row, titles) for row in table.rows}
     of = f"{below.count} of {voice.counted(below.of)}"
     human = f"In {of} all four learners earned more than {voice.human}{_interval(below)}."
     return {"human": human} | {row.who: _learner_sentence(row, titles, voice) for row in table.rows}
@@ -135,6 +143,13 @@ def _learner_sentence(row: TableOneRow, titles: Mapping[str, str], voice: Voice)
         f"{titles[row.who]} placed first in {first.count} of {voice.counted(first.of)}{_interval(first)}, {placed}."
         f" It earned more than {earned}."
     )
+
+
+def _sentence_of_one(row: TableOneRow, titles: Mapping[str, str]) -> str:
+    """Say it of a single world, where counts would all be none or one."""
+    place = next(_PLACES[i] for i, one in enumerate(row.placed) if one.count)
+    below = [titles[other] for other, n in row.beaten.items() if n]
+    return f"{titles[row.who]} placed {place}. It earned more than {listed(below) if below else 'none of the others'}."
 
 
 def _interval(one: Proportion) -> str:

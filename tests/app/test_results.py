@@ -119,6 +119,16 @@ def test_table_one_is_written_out_as_in_the_paper(client, worlds, me, finish):
     )
 
 
+def test_a_single_world_is_told_without_counting_to_one(client, worlds, me, finish):
+    finish(worlds[0], me, **PAPER)
+    found = results(client)
+    assert found["headline"].endswith(" in your only world so far.")
+    said = {row["who"]: row["sentence"] for row in found["table_one"]["rows"]}
+    assert said["irlfr"] == "IRLFR placed first. It earned more than MEIRL, IRLR and IRLF."
+    assert "none of the others" in " ".join(said.values())
+    assert not any(" 1 " in one or " of " in one for one in [found["headline"], said["human"], said["irlfr"]])
+
+
 def test_few_worlds_are_called_few_and_get_no_interval(client, worlds, me, finish):
     for world, few in zip(worlds, ("One world says little", "Two worlds say little"), strict=False):
         finish(world, me, **PAPER)

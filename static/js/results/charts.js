@@ -10,6 +10,8 @@ import { BAR, layOutPlaces, layOutShares, lines, ROW, TOP } from "#js/results/la
 
 /** Places beyond have the last one's colour; their figures and their order tell them apart. */
 const DEEPEST = 6;
+/** The width of a key of the legend. */
+const KEY = 50;
 
 /** @param {Standing[]} standings @param {number} width */
 export function drawPlaces(standings, width) {
@@ -100,14 +102,16 @@ function picture({ width, height }, label) {
   return svgElement("svg", { class: "dot-plot results-plot", role: "img", "aria-label": label, ...size });
 }
 
-/** @param {{left: number, n_places: number}} layout */
-function legend({ left, n_places }) {
-  return Array.from({ length: Math.min(n_places, DEEPEST) }, (_, i) => {
+/** Above the bars; on a phone it may begin above the names. @param {{width: number, left: number, n_places: number}} layout */
+function legend({ width, left, n_places }) {
+  const length = Math.min(n_places, DEEPEST);
+  const from = Math.max(0, Math.min(left, width - length * KEY));
+  return Array.from({ length }, (_, i) => {
     const isRest = i + 1 === DEEPEST && n_places > DEEPEST;
     const group = svgElement("g", { class: "place", "data-place": i + 1 });
     group.append(
-      svgElement("rect", { x: left + i * 50, y: 6, width: 12, height: 12 }),
-      text("dot-plot-tick", left + i * 50 + 17, 16.5, `${nth(i + 1)}${isRest ? " …" : ""}`),
+      svgElement("rect", { x: from + i * KEY, y: 6, width: 12, height: 12 }),
+      text("dot-plot-tick", from + i * KEY + 17, 16.5, `${nth(i + 1)}${isRest ? " …" : ""}`),
     );
     return group;
   });
