@@ -1,7 +1,7 @@
 """What to cite for a run: the paper, this software, and the methods of exactly the learners that took part.
 
 `WORKS` holds each work once; `METHODS` says which works a learner stands on. What is not known for sure (who wrote the
-paper, and where it appeared) is left to the reader, who has it before them, rather than guessed.
+paper, and when and where it appeared) is said to be unknown rather than guessed.
 """
 
 from collections.abc import Mapping, Sequence
@@ -104,7 +104,7 @@ WORKS: Mapping[str, Work] = {
     PAPER: Work(
         "misc",
         "IRLFR: inverse reinforcement learning from failed and ranked demonstrations",
-        note="The paper whose algorithms these are; take its authors and year from your copy.",
+        note="The paper whose algorithms these are. The copy they were built from names no authors, year or venue.",
     ),
     "boularias2011": Work(
         "inproceedings",
