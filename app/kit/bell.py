@@ -52,7 +52,8 @@ class RungEvent:
         self._event.clear()
 
     def _listen(self) -> None:
-        while self._socket.recv(len(RING)):
+        while True:
+            self._socket.recv(len(RING))  # whatever it carries, were it nothing
             self._event.set()
 
 
@@ -67,7 +68,7 @@ class Ringer:
     def ring(self, pattern: str) -> None:
         """Ring every bell whose name fits. Whoever rings need not know whether anybody hears it."""
         for file in self._folder.glob(f"{pattern}{SUFFIX}"):
-            with contextlib.suppress(OSError, ValueError):
+            with contextlib.suppress(OSError, ValueError, OverflowError):  # no port of ours
                 self._socket.sendto(RING, (HERE, int(file.read_text(encoding="ascii"))))
 
     def close(self) -> None:

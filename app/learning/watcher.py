@@ -168,23 +168,23 @@ class Watcher:
                     self._news.set()
                     self._news = asyncio.Event()
             began = time.monotonic()
-            with contextlib.suppress(TimeoutError):
+            with contextlib.suppress(OSError):  # nor is a broken bell; a TimeoutError is one of them
                 await asyncio.wait_for(self._bell.wait(), LOOK_EVERY_S)
             await asyncio.sleep(max(0.0, began + REST_S - time.monotonic()))
 
     async def _look(self) -> bool:
         """Add what has come to the feeds; False when nothing has changed."""
-        known = {run_id: feed.newest for run_id, feed in self._feeds.items()}
-        happenings, standings = await to_thread.run_sync(self._find_news, known)
+        known = dict(self._feeds)
+        newest = {run_id: feed.newest for run_id, feed in known.items()}
+        happenings, standings = await to_thread.run_sync(self._find_news, newest)
         is_news = False
         for happening in happenings:
-            feed = self._feeds.get(happening.run_id)
-            if feed is not None and happening.number == feed.newest + 1:
+            feed = known[happening.run_id]
+            if happening.number == feed.newest + 1:
                 feed.add(happening)
                 is_news = True
-        for run_id in known:
-            feed = self._feeds.get(run_id)
-            if feed is not None and feed.standing != standings.get(run_id):
+        for run_id, feed in known.items():  # a feed that began meanwhile knows better than this look
+            if feed.standing != standings.get(run_id):
                 feed.standing = standings.get(run_id)
                 is_news = True
         return is_news

@@ -223,6 +223,34 @@ def test_a_run_deleted_while_it_is_watched_ends_its_streams(client, played, data
         assert not session.query(RunEvent).count()
 
 
+def test_a_look_that_was_overtaken_does_not_bring_an_ended_run_back(client, played, database, settings):  # noqa: F811
+    """A page is loaded again at the end of a run: the new stream knows of the end, an older look does not."""
+    run_id = ask(client, played, learners=["bc"]).json()["id"]
+    has_looked, go_on = threading.Event(), threading.Event()
+
+    async def watch():
+        async with watching(database, settings) as (watcher, _):
+            watcher._start_to_look, find_news = lambda: None, watcher._find_news
+
+            def slow(newest):
+                found = find_news(newest)
+                has_looked.set()
+                go_on.wait()
+                return found
+
+            watcher._find_news = slow
+            async with watcher.watching([run_id]):
+                look = asyncio.create_task(watcher._look())
+                await asyncio.to_thread(has_looked.wait)
+            await asyncio.to_thread(worker.learn_now, database, run_id)
+            async with watcher.watching([run_id]) as (feed,):
+                go_on.set()
+                await look
+                return feed.standing
+
+    assert asyncio.run(watch()).status == "done"
+
+
 def test_a_hundred_streams_over_four_runs_miss_nothing_that_matters(client, played, database, settings):  # noqa: F811
     """The small version of bench/streams.py, without a server in between."""
     quick = {"iterations": 10}

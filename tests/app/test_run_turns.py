@@ -1,6 +1,7 @@
 """Several runs of one worker: turns that are fair between visitors, bells that wake, a worker that says it is ready."""
 
 import asyncio
+import socket
 import threading
 from types import SimpleNamespace
 
@@ -125,7 +126,8 @@ def test_a_learner_gives_way_in_the_midst_of_a_step(client, played, database):  
 def test_a_bell_wakes_who_waits_and_an_earlier_ring_is_not_lost(settings):
     ringer = Ringer(settings.data_dir)
     ringer.ring("*")  # nobody is there: nothing happens
-    (settings.data_dir / "dead.bell").write_text("no port")
+    for number, nowhere in enumerate(("no port", "99999", "-1", "")):
+        (settings.data_dir / f"dead-{number}.bell").write_text(nowhere)
 
     async def hear():
         bell = Bell(settings.data_dir, "web")
@@ -139,7 +141,14 @@ def test_a_bell_wakes_who_waits_and_an_earlier_ring_is_not_lost(settings):
     asyncio.run(hear())
     assert not (settings.data_dir / "web.bell").exists()
     rung = RungEvent(settings.data_dir, "worker-1.worker")
-    ringer.ring("*")
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as stranger:
+        port = int((settings.data_dir / "worker-1.worker.bell").read_text())
+        for junk in (b"", b"x" * 2000):
+            stranger.sendto(junk, ("127.0.0.1", port))
+    for _ in range(2):  # a stranger's knock is a ring like any other, and the bell hears on
+        rung._event.wait()
+        rung._event.clear()
+        ringer.ring("*")
     rung.wait(30)
     ringer.close()
 
