@@ -13,6 +13,9 @@ import { api } from "#js/lib/api.js";
 import { signed } from "#js/lib/format.js";
 import { runApi } from "#js/lib/run-address.js";
 
+/** A bar is as long as the largest of all, unless even that is small: then it looks small. */
+const LEAST = { policy: 0.1, earned: 1 };
+
 export class Mattered {
   #about;
   #template;
@@ -49,8 +52,8 @@ export class Mattered {
   #rows(sorted) {
     const known = sorted.filter((one) => one.policy_change !== null);
     const largest = {
-      policy: Math.max(...known.map((one) => one.policy_change ?? 0)),
-      earned: Math.max(...known.map((one) => Math.abs(one.return_change ?? 0))),
+      policy: Math.max(LEAST.policy, ...known.map((one) => one.policy_change ?? 0)),
+      earned: Math.max(LEAST.earned, ...known.map((one) => Math.abs(one.return_change ?? 0))),
     };
     return sorted.flatMap((influence) => {
       const attempt = this.#about.attempts.find(({ id }) => id === influence.id);
@@ -61,7 +64,7 @@ export class Mattered {
   /**
    * @param {Influence} influence
    * @param {Attempt} attempt
-   * @param {{ policy: number, earned: number }} largest of all rows: the whole length of a bar
+   * @param {{ policy: number, earned: number }} largest the whole length of a bar
    */
   #row(influence, attempt, largest) {
     const { world } = this.#about;
@@ -79,17 +82,12 @@ export class Mattered {
     part("try").hidden = influence.policy_change === null;
     part("policy").textContent = percent(influence.policy_change);
     part("earned").textContent = influence.return_change === null ? "–" : signed(influence.return_change);
-    part("policy-bar").style.inlineSize = `${100 * share(influence.policy_change, largest.policy)}%`;
-    const earned = share(influence.return_change, largest.earned);
+    part("policy-bar").style.inlineSize = `${100 * ((influence.policy_change ?? 0) / largest.policy)}%`;
+    const earned = (influence.return_change ?? 0) / largest.earned;
     part("earned-bar").style.inlineSize = `${50 * Math.abs(earned)}%`;
     part("earned-bar").dataset.sign = String(Math.sign(earned));
     part("try").dataset.id = attempt.id;
     part("try").setAttribute("aria-label", `What if it had not been played: ${nameOf(attempt)}`);
     return row;
   }
-}
-
-/** @param {number | null} value @param {number} largest */
-function share(value, largest) {
-  return largest > 0 ? (value ?? 0) / largest : 0;
 }
