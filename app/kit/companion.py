@@ -214,14 +214,18 @@ class Companion:
 
 @dataclass(frozen=True, slots=True)
 class Asker:
-    """Somebody with questions for the companion, who takes turns with the others."""
+    """Somebody with questions for the companion, who takes turns with the others.
+
+    Several may share the turns of one: `among` tells them apart, so that no question takes the place of another's.
+    """
 
     companion: Companion
     who: str
+    among: str = ""
 
     def line(self, kind: str) -> "Line":
         """Begin to ask for something, in place of whatever they are still asking for of this kind."""
-        return self.companion.line(self.who, kind)
+        return self.companion.line(self.who, f"{kind} {self.among}".rstrip())
 
 
 class Line:

@@ -7,7 +7,7 @@ from fastapi import APIRouter, Depends, Query
 from app.dependencies import DatabaseFromApp
 from app.learning.dependencies import RunFromPath
 from app.retraining import service
-from app.retraining.dependencies import AnswersFromApp, AskerFromRequest, check_is_shown
+from app.retraining.dependencies import AnswersFromApp, AskerAboutRun, AskerFromRequest, check_is_shown
 from app.retraining.schemas import InfluenceOut, LearnedOut, PreviewIn, UncertaintyOut, WhatIfIn, WhatIfOut
 from app.visitors import VisitorOrNone
 from app.worlds.dependencies import WorldFromPath
@@ -41,9 +41,7 @@ async def preview(
 
 
 @router.post("/runs/{run_id}/what-ifs", summary="Ask what if", response_model=WhatIfOut)
-async def what_if(
-    run: RunFromPath, asked: WhatIfIn, database: DatabaseFromApp, asker: AskerFromRequest
-) -> dict[str, Any]:
+async def what_if(run: RunFromPath, asked: WhatIfIn, database: DatabaseFromApp, asker: AskerAboutRun) -> dict[str, Any]:
     """Let a learner of a run learn again at once with one thing changed; nothing is stored.
 
     It learns from the run's own snapshot, with its settings and seed. Refused as previews are, and with 409
@@ -56,7 +54,7 @@ async def what_if(
 async def show_influence(
     run: RunFromPath,
     learner: LearnerFromQuery,
-    asker: AskerFromRequest,
+    asker: AskerAboutRun,
     answers: AnswersFromApp,
 ) -> dict[str, Any]:
     """Show what each attempt changed in what a learner of a run came to: it learns again without each of them.
@@ -70,7 +68,7 @@ async def show_influence(
 async def show_uncertainty(
     run: RunFromPath,
     learner: LearnerFromQuery,
-    asker: AskerFromRequest,
+    asker: AskerAboutRun,
     answers: AnswersFromApp,
 ) -> dict[str, Any]:
     """Show how sure a learner of a run can be: by its posterior, or by learning again from draws of the attempts.

@@ -348,6 +348,25 @@ def test_a_newer_preview_replaces_the_one_that_waits_and_a_death_is_told_once(cl
     assert answers["newer"].json()["reward"] == run["learners"]["trex"]["reward"]
 
 
+def test_all_who_look_on_by_a_link_have_one_turn_together_and_leave_each_other_alone(client, played, monkeypatch):
+    run, beside, lines = played[2], client.app.state.companion, []
+    begin = beside.line
+
+    def line(who, kind):
+        lines.append((who, kind))
+        return begin(who, kind)
+
+    monkeypatch.setattr(beside, "line", line)
+    key = client.post(f"/api/v1/runs/{run['id']}/shares").json()["key"]
+    looking_on, with_a_cookie = open_client(client.app), open_client(client.app)
+    attempt_of(with_a_cookie, played[0], best_path(played[0]))
+    for asking in (client, looking_on, with_a_cookie):
+        assert what_if(asking, run, {"drop": played[1]["success"][0]}, key=key).status_code == 200
+    (owner, _), (first, one), (second, other) = lines
+    assert first == second != owner
+    assert one != other
+
+
 @pytest.mark.parametrize("address", ["/worlds/{world}/rank", "/runs/{run}/comparison"])
 def test_a_page_that_will_ask_wakes_the_companion(client, played, address, monkeypatch):
     woken = []
