@@ -8,7 +8,7 @@ from starlette.responses import RedirectResponse, Response
 
 from app.comparisons import queries
 from app.comparisons.citations import citations_of
-from app.demonstrations.pages import demonstrations_json
+from app.demonstrations.pages import snapshot_json
 from app.dependencies import DatabaseFromApp
 from app.learning.convert import describe_learners, describe_settings, snapshot_rankings, to_out
 from app.learning.dependencies import RunFromPath, ShareKey
@@ -58,7 +58,7 @@ def show_comparison(
         path = path_state(session, visitor_id, run.world_id, "compare")
     data: dict[str, Any] = {
         "world": world.to_json(),
-        "demonstrations": demonstrations_json(rows),
+        "demonstrations": snapshot_json(rows),
         "rankings": snapshot_rankings(run),
         "run": shown.model_dump(mode="json"),
         "is_own": is_own,

@@ -79,3 +79,8 @@ def _options(settings: Settings) -> dict[str, bool]:
 def demonstrations_json(rows: Any) -> list[dict[str, Any]]:  # noqa: ANN401 - rows of demonstrations
     """Demonstrations as the API lists them, for a page's data: without the records, which no page looks at."""
     return [DemonstrationOut.of(row, with_record=False).model_dump(mode="json", exclude={"record"}) for row in rows]
+
+
+def snapshot_json(rows: Any) -> list[dict[str, Any]]:  # noqa: ANN401 - as above
+    """The same of what a run learned from: it was kept then, whatever became of it since."""
+    return [one | {"discarded": False} for one in demonstrations_json(rows)]

@@ -8,7 +8,7 @@ from fastapi import APIRouter, Request
 from sqlalchemy.orm import Session
 from starlette.responses import Response
 
-from app.demonstrations.pages import demonstrations_json
+from app.demonstrations.pages import demonstrations_json, snapshot_json
 from app.demonstrations.queries import all_in_world
 from app.dependencies import DatabaseFromApp
 from app.learning import queries, service
@@ -81,7 +81,7 @@ def _shared_page(session: Session, world: StoredWorld, visitor_id: str | None, r
     """The page of somebody who came by a link: the run's snapshot, as if nothing had been played or ranked since."""
     rows = queries.demonstrations_of(session, run)
     data = {
-        "demonstrations": [one | {"discarded": False} for one in demonstrations_json(rows)],
+        "demonstrations": snapshot_json(rows),
         "rankings": snapshot_rankings(run),
         "run": _run_json(session, run, is_own=False),
         "is_own": False,

@@ -69,6 +69,8 @@ def test_sharing_twice_gives_one_link_and_revoking_closes_it_for_good(client, ot
 def test_the_pages_of_a_shared_run_show_its_snapshot_and_not_what_came_after(client, other_client, played, run):  # noqa: F811
     key = share(client, run)["key"]
     later = make_demonstration(client, played)["id"]
+    earliest = client.get(f"/api/v1/worlds/{played['id']}/demonstrations").json()[0]["id"]
+    client.put(f"/api/v1/demonstrations/{earliest}/discard")
     own = island(client.get(f"/runs/{run['id']}"))
     assert (own["is_own"], own["key"], own["run"]["is_own"]) == (True, None, True)
     assert len(own["demonstrations"]) == 7
@@ -78,7 +80,7 @@ def test_the_pages_of_a_shared_run_show_its_snapshot_and_not_what_came_after(cli
         assert later not in answer.text
         seen = island(answer)
         assert (seen["is_own"], seen["key"], seen["run"]["is_own"]) == (False, key, False)
-        assert len(seen["demonstrations"]) == 6
+        assert [one["discarded"] for one in seen["demonstrations"]] == [False] * 6, "what was discarded since counted"
         assert [len(seen["rankings"][outcome]["order"]) for outcome in ("success", "failure")] == [3, 3]
 
 
