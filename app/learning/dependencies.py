@@ -72,7 +72,10 @@ def find_run(session: Session, run_id: str, visitor_id: str | None, key: str | N
     run = session.get(Run, run_id)
     if run is not None and (run.visitor_id == visitor_id or (key is not None and opens(session, key, run_id))):
         return run
-    message = "There is no such run here. Runs can be seen by the browser that asked for them, or by a link it shared."
+    message = (
+        "There is no such run here. Runs can be seen by the browser that asked for them, or by a link it shared and has"
+        " not taken back."
+    )
     raise NotFound(message)
 
 

@@ -37,8 +37,11 @@ export class ShareLink {
     return made !== null;
   }
 
+  /** The button that makes it goes away: the link takes its focus. */
   async makeAndCopy() {
-    if (await this.make()) await this.copy();
+    if (!(await this.make())) return;
+    this.#part("link").focus();
+    await this.copy();
   }
 
   async copy() {

@@ -129,11 +129,14 @@ export function whatIfSentence({ change, difference, before, expected_return }, 
   const clause = conditionWords(change, attempts, about.voice);
   const delta = expected_return - before.expected_return;
   if (isNothing(difference)) return `${clause}, nothing changes${reasonWords(change, attempts, about)}`;
-  const figures =
-    Math.abs(delta) < SMALLEST
-      ? `: ${figure(expected_return)}`
-      : `: ${figure(expected_return)} instead of ${figure(before.expected_return)}`;
-  return `${clause}, ${arrowsTurn(difference.turned.length, world)} and ${earningWords(who.title, delta)}${figures}.`;
+  const figures = Math.abs(delta) < SMALLEST ? figure(expected_return) : apart(expected_return, before.expected_return);
+  return `${clause}, ${arrowsTurn(difference.turned.length, world)} and ${earningWords(who.title, delta)}: ${figures}.`;
+}
+
+/** "3.1 instead of 5.2", as finely as tells them apart. @param {number} now @param {number} before */
+function apart(now, before) {
+  const digits = figure(now) === figure(before) ? 2 : 1;
+  return `${figure(now, digits)} instead of ${figure(before, digits)}`;
 }
 
 /** @param {Change} change @param {Attempt[]} attempts @param {Voice} voice */
