@@ -32,7 +32,9 @@ export class WatchedRun {
   constructor(run, learners, isOwn = true) {
     this.run = run;
     this.progress = new RunProgress(run, learners, isOwn);
-    for (const [learner, result] of Object.entries(run.learners)) this.#seeResult(learner, result, run.compute_ms?.[learner]);
+    for (const [learner, result] of Object.entries(run.learners)) {
+      this.#seeResult(learner, result, run.compute_ms?.[learner]);
+    }
   }
 
   get id() {
