@@ -42,7 +42,7 @@ async def every_event(watcher: Watcher, run_id: str, after: int) -> AsyncIterato
             if feed.standing is None:
                 yield _message("failed", json.dumps({"status": "deleted", "message": DELETED}), str(after))
                 return
-            if after == feed.newest and not await _comes(news):
+            if after >= feed.newest and not await _comes(news):
                 yield KEEPALIVE_COMMENT
 
 
@@ -180,7 +180,10 @@ class _OfRun:
 async def _following(watcher: Watcher, feed: Feed, number: int) -> Sequence[Happening]:
     """The events of a run after `number`, as many as are at hand."""
     kept = feed.after(number)
-    return await watcher.events_after(feed.run_id, number) if kept is None else kept
+    if kept is not None:
+        return kept
+    # The table may know more than the feed does yet: a stream that ran ahead of its feed would never wait for it.
+    return [one for one in await watcher.events_after(feed.run_id, number) if one.number <= feed.newest]
 
 
 async def _comes(news: asyncio.Event) -> bool:

@@ -13,8 +13,8 @@ from sqlalchemy import insert
 from app.db import Database
 from app.kit import clock
 from app.kit.bell import Bell, Ringer
-from app.learning import steps, worker
-from app.learning.stream import every_event, many_runs
+from app.learning import events, steps, worker
+from app.learning.stream import _following, every_event, many_runs
 from app.learning.watcher import MOST_KEPT, Watcher
 from app.models import Run, RunEvent, Worker
 from tests.app.test_learning import ask, played  # noqa: F401 - `played` is a fixture
@@ -249,6 +249,21 @@ def test_a_look_that_was_overtaken_does_not_bring_an_ended_run_back(client, play
                 return feed.standing
 
     assert asyncio.run(watch()).status == "done"
+
+
+def test_no_stream_runs_ahead_of_what_the_last_look_found(client, played, database, settings):  # noqa: F811
+    """It would pass the numbers that it waits for, and never wait again: nor would anybody else get a turn."""
+    run_id = ask(client, played, learners=["meirl"]).json()["id"]
+    make_events(database, run_id, 5)
+
+    async def watch():
+        async with watching(database, settings) as (watcher, _), watcher.watching([run_id]) as (feed,):
+            watcher._task.cancel()  # no look finds what comes now
+            frame = {"learner": "meirl", "iteration": 6, "iterations": 9, "reward": []}
+            await asyncio.to_thread(database.write, lambda session: events.append(session, run_id, "frame", frame))
+            return feed.newest, [one.number for one in await _following(watcher, feed, 0)]
+
+    assert asyncio.run(watch()) == (5, [1, 2, 3, 4, 5])
 
 
 def test_a_hundred_streams_over_four_runs_miss_nothing_that_matters(client, played, database, settings):  # noqa: F811
