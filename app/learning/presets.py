@@ -10,8 +10,7 @@ PRESETS: tuple[dict[str, Any], ...] = (
         "title": "Recommended",
         "learners": list(DEFAULT_LEARNERS),
         "settings": {},
-        "sentence": "The paper's four with a λ_min at which they stay calm, and Bayesian IRLFR, which also says how "
-        "sure it is.",
+        "sentence": "The paper’s four, held to calm steps, and Bayesian IRLFR, which also says how sure it is.",
     },
     {
         "name": "paper",

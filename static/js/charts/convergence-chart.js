@@ -12,7 +12,7 @@ import { decades, roundDomain } from "#js/charts/scales.js";
 /** @typedef {"gap" | "log_likelihood"} Measure */
 
 const MARKERS_PER_LINE = 7;
-const AXIS_LEFT = 58;
+const AXIS_LEFT = 68;
 
 export class ConvergenceChart {
   /** @type {uPlot | null} */
@@ -232,7 +232,7 @@ function drawPosition(plot, position, ink) {
  */
 function tick(value, isLog) {
   if (value === null) return "";
-  if (!isLog) return significant(value);
+  if (!isLog) return significant(value).replace(/(\.0)? × /, "×"); // "−2×10⁵" has room beside the axis
   const exponent = Math.log10(value);
   return Math.abs(exponent - Math.round(exponent)) < 1e-6 ? significant(value) : "";
 }

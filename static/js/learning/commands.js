@@ -90,7 +90,14 @@ export class Commands {
       if (run === this.#page.runs.shown) this.#page.show(null);
       this.#page.runs.forget(run.id);
       announce("The run is deleted.");
+      this.#focusAfterRemoval();
     });
+  }
+
+  /** The button that was pressed is gone with its line. */
+  #focusAfterRemoval() {
+    const title = this.#part("runs-title");
+    (title.checkVisibility() ? title : this.#part("learn")).focus();
   }
 
   /** @returns {Promise<boolean>} */
