@@ -138,7 +138,8 @@ def table_one_sentences(table: TableOne, titles: Mapping[str, str], voice: Voice
 def _learner_sentence(row: TableOneRow, titles: Mapping[str, str], voice: Voice) -> str:
     first, *others = row.placed
     placed = listed([f"{_PLACES[place]} in {_count(one.count)}" for place, one in enumerate(others, start=1)])
-    earned = listed([f"{titles[other]} in {_count(n)}" for other, n in row.beaten.items()])
+    won = [f"{titles[other]} in {_count(n)}" for other, n in row.beaten.items()]
+    earned = listed(won) if any(row.beaten.values()) else "none of the others"
     return (
         f"{titles[row.who]} placed first in {first.count} of {voice.counted(first.of)}{_interval(first)}, {placed}."
         f" It earned more than {earned}."
