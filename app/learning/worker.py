@@ -33,8 +33,8 @@ T = TypeVar("T")
 
 UPKEEP_EVERY_S = 3.0
 SHOW_LIFE_EVERY_S = 1.0
-LOOK_FOR_RUNS_EVERY_S = 0.1
-"""Where nobody rings; otherwise at once."""
+LOOK_FOR_RUNS_EVERY_S = 0.5
+"""Where nobody rings, as when a visitor's limit held a run back; otherwise at once. Looking costs an idle machine."""
 RUNS_AT_ONCE = 16
 RUNS_OF_A_VISITOR_AT_ONCE = 4
 """In all workers together: who asks for many leaves room for others."""
