@@ -135,12 +135,12 @@ def invalid_input(errors: Sequence[Mapping[str, Any]]) -> Unprocessable:
 
 def _place(location: Sequence[str | int]) -> str:
     """`actions.3`. A name the client made up is repeated only if it looks like a name."""
-    parts = [_name(part) for part in location if part not in {"body", "query", "path"}]
+    parts = [_name(part) for part in location if part not in {"body", "query", "path", "header"}]
     return ".".join(parts) or "body"
 
 
 def _name(part: str | int) -> str:
-    if isinstance(part, int) or re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]{0,39}", part):
+    if isinstance(part, int) or re.fullmatch(r"[A-Za-z_][A-Za-z0-9_-]{0,39}", part):
         return str(part)
     return "(a name we do not know)"
 

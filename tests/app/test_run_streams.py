@@ -135,6 +135,18 @@ def test_an_id_that_is_none_of_ours_begins_with_a_snapshot(client, played, datab
         assert [kind for _, kind, _ in follow(client, run_id, seen=seen)] == ["snapshot", "done"], seen
 
 
+def test_a_number_that_is_yet_to_come_is_none_of_ours_either(client, played, database, settings):  # noqa: F811
+    run_id = ask(client, played, learners=["meirl"]).json()["id"]
+    make_events(database, run_id, 5)
+
+    async def watch():
+        async with watching(database, settings) as (watcher, _):
+            streams = every_event(watcher, run_id, 99), many_runs(watcher, [run_id], with_frames=[run_id], seen=[99])
+            return [parse((await anext(stream)).decode())[0][:2] for stream in streams]
+
+    assert asyncio.run(watch()) == [("1", "frame"), ("5", "snapshot")]
+
+
 def test_a_thousand_frames_behind_is_one_snapshot_away(client, played, database):  # noqa: F811
     run_id = ask(client, played, learners=["meirl"]).json()["id"]
     make_events(database, run_id, 1000)
