@@ -46,6 +46,7 @@ def test_a_key_opens_nothing_else_and_changes_nothing(client, other_client, play
         ("POST", "/shares"),
         ("GET", "/shares"),
         ("DELETE", f"/shares/{key}"),
+        ("DELETE", ""),
     ):
         answer = other_client.request(method, f"/api/v1/runs/{run['id']}{path}", params={"key": key})
         assert answer.status_code == 404, (method, path)
