@@ -8,6 +8,7 @@ import pytest
 from app.db import Database
 from app.kit.companion import Superseded
 from app.retraining.answers import MOST_KEPT, Answers
+from tests.awaited import awaited
 
 
 class Work:
@@ -51,7 +52,7 @@ def test_two_who_ask_for_the_same_wait_for_one_answer_which_is_kept():
         assert await find(answers, yours, "run") is await first
         assert (mine.n_begun, yours.n_begun) == (1, 0)
 
-    asyncio.run(story())
+    awaited(story())
 
 
 def test_where_the_one_who_began_it_turns_to_something_newer_the_next_takes_over():
@@ -69,7 +70,7 @@ def test_where_the_one_who_began_it_turns_to_something_newer_the_next_takes_over
         yours.may_end.set()
         assert await second == {"kind": "why"}
 
-    asyncio.run(story())
+    awaited(story())
 
 
 def test_who_goes_away_takes_nobody_with_them():
@@ -84,7 +85,7 @@ def test_who_goes_away_takes_nobody_with_them():
         assert await second == {"kind": "why"}
         assert yours.n_begun == 0
 
-    asyncio.run(story())
+    awaited(story())
 
 
 def test_a_failure_is_not_kept_and_the_oldest_answers_are_forgotten():
@@ -103,7 +104,7 @@ def test_a_failure_is_not_kept_and_the_oldest_answers_are_forgotten():
         await find(answers, work, "0")
         assert work.n_begun == MOST_KEPT + 3
 
-    asyncio.run(story())
+    awaited(story())
 
 
 def test_closing_ends_what_is_being_found_out():
@@ -115,4 +116,4 @@ def test_closing_ends_what_is_being_found_out():
         with pytest.raises(asyncio.CancelledError):
             await asked
 
-    asyncio.run(story())
+    awaited(story())

@@ -3,7 +3,6 @@
 Calls are functions of the standard library: the companion finds them by their names.
 """
 
-import asyncio
 import contextlib
 import operator
 import os
@@ -21,6 +20,8 @@ from app.kit.companion_process import Died, Overdue
 OUTLIVED = """
 import os, sys
 from app.kit.companion import Companion
+from tests.awaited import awaited
+from tests.awaited import awaited
 companion = Companion(warm_up=os.getpid, expected=(), environment={})
 print(companion.submit(companion.line("a", "pid"), os.getpid, ()).result(), flush=True)
 sys.stdin.read()
@@ -146,7 +147,7 @@ def test_a_question_of_several_calls_ends_when_a_newer_one_begins(companion):
         assert await other.ask(operator.add, 5, 6) == 11
         return await new.ask(operator.add, 7, 8)
 
-    assert asyncio.run(converse()) == 15
+    assert awaited(converse()) == 15
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="a call that waits for as long as the test likes needs a FIFO")

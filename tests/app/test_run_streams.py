@@ -18,6 +18,7 @@ from app.learning.stream import _following, every_event, many_runs
 from app.learning.watcher import MOST_KEPT, Watcher
 from app.models import Run, RunEvent, Worker
 from tests.app.test_learning import ask, played  # noqa: F401 - `played` is a fixture
+from tests.awaited import awaited
 from tests.factories import make_demonstration
 
 FOUR = ("meirl", "irlr", "irlf", "irlfr")
@@ -144,7 +145,7 @@ def test_a_number_that_is_yet_to_come_is_none_of_ours_either(client, played, dat
             streams = every_event(watcher, run_id, 99), many_runs(watcher, [run_id], with_frames=[run_id], seen=[99])
             return [parse((await anext(stream)).decode())[0][:2] for stream in streams]
 
-    assert asyncio.run(watch()) == [("1", "frame"), ("5", "snapshot")]
+    assert awaited(watch()) == [("1", "frame"), ("5", "snapshot")]
 
 
 def test_a_thousand_frames_behind_is_one_snapshot_away(client, played, database):  # noqa: F811
@@ -187,7 +188,7 @@ def test_a_live_stream_thins_frames_and_tells_of_the_queue(client, played, datab
                 await asyncio.to_thread(worker.learn_now, database, run_id, tell=ring)
             return await reading
 
-    found = asyncio.run(watch())
+    found = awaited(watch())
     snapshots = {data["run_id"]: data for _, kind, data in found if kind == "snapshot"}
     assert [(snapshots[one]["status"], snapshots[one]["ahead"]) for one in (second,)] == [("queued", 1)]
     assert snapshots[second]["worker"] == "none"
@@ -223,7 +224,7 @@ def test_a_run_deleted_while_it_is_watched_ends_its_streams(client, played, data
             assert deleted.status_code == 204
             return await asyncio.gather(*readings)
 
-    for found in asyncio.run(watch()):
+    for found in awaited(watch()):
         _, kind, data = found[-1]
         assert (kind, data["status"]) == ("failed", "deleted")
     assert client.get(f"/api/v1/runs/{run_id}").status_code == 404
@@ -260,7 +261,7 @@ def test_a_look_that_was_overtaken_does_not_bring_an_ended_run_back(client, play
                 await look
                 return feed.standing
 
-    assert asyncio.run(watch()).status == "done"
+    assert awaited(watch()).status == "done"
 
 
 def test_no_stream_runs_ahead_of_what_the_last_look_found(client, played, database, settings):  # noqa: F811
@@ -275,7 +276,7 @@ def test_no_stream_runs_ahead_of_what_the_last_look_found(client, played, databa
             await asyncio.to_thread(database.write, lambda session: events.append(session, run_id, "frame", frame))
             return feed.newest, [one.number for one in await _following(watcher, feed, 0)]
 
-    assert asyncio.run(watch()) == (5, [1, 2, 3, 4, 5])
+    assert awaited(watch()) == (5, [1, 2, 3, 4, 5])
 
 
 def test_a_hundred_streams_over_four_runs_miss_nothing_that_matters(client, played, database, settings):  # noqa: F811
@@ -294,7 +295,7 @@ def test_a_hundred_streams_over_four_runs_miss_nothing_that_matters(client, play
             learning.join()
             return found, watcher.n_streams
 
-    streams, n_left = asyncio.run(watch())
+    streams, n_left = awaited(watch())
     assert n_left == 0
     for found in streams:
         for run_id in run_ids:
@@ -315,7 +316,7 @@ def test_a_feed_keeps_only_so_many_events(client, played, database, settings):  
                 await asyncio.sleep(0.01)
             return len(feed.kept), feed.after(59), feed.after(MOST_KEPT + 59)
 
-    n_kept, from_before, newest = asyncio.run(watch())
+    n_kept, from_before, newest = awaited(watch())
     assert n_kept == MOST_KEPT
     assert from_before is None, "what is no longer kept is read from the table"
     assert [one.number for one in newest] == [MOST_KEPT + 60]

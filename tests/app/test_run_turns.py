@@ -16,6 +16,7 @@ from app.learning.turns import Turns
 from app.learning.upkeep import Upkeep
 from irl_core import LEARNERS, Settings
 from tests.app.test_learning import ask, played  # noqa: F401 - `played` is a fixture
+from tests.awaited import awaited
 from tests.factories import make_demonstration
 
 
@@ -138,7 +139,7 @@ def test_a_bell_wakes_who_waits_and_an_earlier_ring_is_not_lost(settings):
             await asyncio.wait_for(bell.wait(), 0.01)
         bell.close()
 
-    asyncio.run(hear())
+    awaited(hear())
     assert not (settings.data_dir / "web.bell").exists()
     rung = RungEvent(settings.data_dir, "worker-1.worker")
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as stranger:
