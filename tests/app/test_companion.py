@@ -16,6 +16,7 @@ import pytest
 
 from app.kit.companion import Companion, Failed, Superseded
 from app.kit.companion_process import Died, Overdue
+from tests.awaited import awaited
 
 OUTLIVED = """
 import os, sys
