@@ -34,13 +34,14 @@ def test_several_runs_go_on_at_once_and_are_cancelled_and_deleted_from_the_list(
     assert f"run={second}&run={first}&frames={second}" in streams[-1], "one stream for both"
 
     other.locator('[data-act="cancel"]').click()
-    expect(other).to_have_attribute("data-status", "cancelled")
+    expect(other).to_have_attribute("data-status", "cancelled", timeout=walk.LEARNING_MS)
     other.locator('[data-act="delete"]').click()
     page.locator('[data-part="question"] [value="no"]').click()
     expect(other).to_be_visible()
     other.locator('[data-act="delete"]').click()
     page.locator('[data-part="question"] [value="yes"]').click()
     expect(other).to_have_count(0)
+    expect(page.locator('[data-part="runs-title"]')).to_be_focused()
     mine.locator('[data-act="cancel"]').click()
     expect_truth(page, client, str(second), "cancelled")
 

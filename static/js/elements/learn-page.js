@@ -138,7 +138,7 @@ export class LearnPage extends HTMLElement {
   #onClick({ target }) {
     const action = target instanceof Element ? target.closest("[data-action]")?.getAttribute("data-action") : null;
     if (action === "learn") void this.#commands.learn();
-    if (action === "cancel") void this.#commands.cancel();
+    if (action === "cancel") void this.#commands.cancelShown();
     if (action === "again") this.#commands.again();
     if (action === "include") this.#commands.includeUnfinished();
   }

@@ -56,10 +56,14 @@ export class Commands {
     changed();
   }
 
-  /** @param {WatchedRun | null} [run] that on the boards when left out */
-  async cancel(run = this.#page.runs.shown) {
-    // The button stands where Learn was: the second press of a double press means nothing.
-    if (!run || performance.now() - this.#askedAt < DOUBLE_PRESS_MS) return;
+  /** Cancel the run on the boards. The button stands where Learn was: the second press of a double press means nothing. */
+  async cancelShown() {
+    const run = this.#page.runs.shown;
+    if (run && performance.now() - this.#askedAt >= DOUBLE_PRESS_MS) await this.cancel(run);
+  }
+
+  /** @param {WatchedRun} run */
+  async cancel(run) {
     await this.#try(() => api.post(`/runs/${run.id}/cancellation`, {}));
   }
 
