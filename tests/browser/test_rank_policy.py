@@ -35,8 +35,8 @@ def policy(page: Page) -> Locator:
 
 def expect_shown(page: Page, n: int) -> None:
     """So many answers were painted, and none is awaited."""
-    expect(policy(page)).to_have_attribute("data-shown", str(n))
-    expect(page.locator("#policy:not([data-asking])")).to_have_count(1)
+    expect(policy(page)).to_have_attribute("data-shown", str(n), timeout=walk.LEARNING_MS)
+    expect(page.locator("#policy:not([data-asking])")).to_have_count(1, timeout=walk.LEARNING_MS)
 
 
 def asked_by(page: Page) -> list[dict[str, Any]]:
@@ -88,7 +88,9 @@ def test_each_drop_shows_what_the_new_order_teaches(page: Page, base_url: str) -
     failures = ranking.order_shown(page, "failure")
     ranking.Mouse(page).drag(failures[2][0], ranking.Where(failures[0][0], "beside"))
     compare_ends(page)
-    expect(page.locator("#compare-swap-policy")).to_have_text(re.compile(r"^In what IRLR would learn, (no|\d+) arrow"))
+    expect(page.locator("#compare-swap-policy")).to_have_text(
+        re.compile(r"^In what IRLR would learn, (no|\d+) arrow"), timeout=walk.LEARNING_MS
+    )
     assert len(asked) == 5, "failures are nothing to IRLR; the fifth is what if"
     page.keyboard.press("Escape")
 
