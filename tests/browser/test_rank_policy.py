@@ -121,7 +121,8 @@ def test_without_an_attempt_that_reached_the_goal_it_says_so_and_asks_nobody(
     asked = asked_by(page)
     ranking.open_lists(page, world_id, n_cards=successes + 2)
     if successes:
-        expect(page.locator("#policy-used")).to_contain_text("Failures teach it something once they reach the goal.")
+        words = "Failures teach it something once they reach the goal."
+        expect(page.locator("#policy-used")).to_contain_text(words, timeout=walk.LEARNING_MS)
         expect(page.get_by_label("IRLFR", exact=True)).to_be_hidden()
     else:
         expect(page.locator("#policy-told")).to_contain_text("Reach it once, whatever it costs.")
