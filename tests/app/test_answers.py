@@ -40,13 +40,19 @@ def find(answers, work, *about):
     return asyncio.create_task(answers.find(work, "why", *about, work=work))
 
 
+async def both_ask(answers, mine, yours):
+    """Two ask for the same, the second while the first is being answered."""
+    first = find(answers, mine, "run")
+    await mine.has_begun.wait()
+    second = find(answers, yours, "run")
+    await asyncio.sleep(0)
+    return first, second
+
+
 def test_two_who_ask_for_the_same_wait_for_one_answer_which_is_kept():
     async def story():
         answers, mine, yours = no_answers(), Work(), Work()
-        first = find(answers, mine, "run")
-        await mine.has_begun.wait()
-        second = find(answers, yours, "run")
-        await asyncio.sleep(0)
+        first, second = await both_ask(answers, mine, yours)
         mine.may_end.set()
         assert await first is await second
         assert await find(answers, yours, "run") is await first
@@ -58,10 +64,7 @@ def test_two_who_ask_for_the_same_wait_for_one_answer_which_is_kept():
 def test_where_the_one_who_began_it_turns_to_something_newer_the_next_takes_over():
     async def story():
         answers, mine, yours = no_answers(), Work(), Work()
-        first = find(answers, mine, "run")
-        await mine.has_begun.wait()
-        second = find(answers, yours, "run")
-        await asyncio.sleep(0)
+        first, second = await both_ask(answers, mine, yours)
         mine.fails_with = Superseded()
         mine.may_end.set()
         with pytest.raises(Superseded):
@@ -76,10 +79,7 @@ def test_where_the_one_who_began_it_turns_to_something_newer_the_next_takes_over
 def test_who_goes_away_takes_nobody_with_them():
     async def story():
         answers, mine, yours = no_answers(), Work(), Work()
-        first = find(answers, mine, "run")
-        await mine.has_begun.wait()
-        second = find(answers, yours, "run")
-        await asyncio.sleep(0)
+        first, second = await both_ask(answers, mine, yours)
         first.cancel()
         mine.may_end.set()
         assert await second == {"kind": "why"}
